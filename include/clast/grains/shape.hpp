@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+// Shapes of grains: templates of non-overlapping pebbles in their principal axes, with exact mass properties.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <clast/core/errors.hpp>
+#include <clast/core/vector.hpp>
+
+namespace clast {
+
+/// One sphere of a shape.
+struct shape_pebble {
+    vec3 offset;         ///< centre, from the mass centre of the shape, in its principal axes (m)
+    double radius = 0.0; ///< (m), positive
+};
+
+/// Two touching pebbles of a shape: where a bond is made when the clump becomes a bonded cluster.
+struct shape_bond {
+    std::int32_t a = 0; ///< index of the first pebble
+    std::int32_t b = 0; ///< index of the second pebble, a < b
+};
+
+/// The template that all grains of one kind share: a rigid clump of non-overlapping pebbles. Make it with `make_shape`
+/// or `shapes::...`, which keep the derived members consistent with the pebbles.
+struct shape {
+    std::string name;
+    std::vector<shape_pebble> pebbles;
+    std::vector<shape_bond> bonds;     ///< sorted by (a, b)
+    double volume = 0.0;               ///< sum of the pebble volumes (m^3)
+    double circumscribed_radius = 0.0; ///< smallest sphere around the mass centre that contains all pebbles (m)
+    double diameter = 0.0;             ///< d = 2 * circumscribed_radius (m)
+    vec3 inertia_per_density;          ///< principal moments of inertia over density (m^5); equal ones are bit-equal
+    quaternion to_input_frame;         ///< turns principal axes into the axes in which the pebbles were given
+    vec3 mass_centre;                  ///< mass centre in the frame in which the pebbles were given (m)
+    double phi_nominal = 0.0;          ///< sphericity that the source of the shape states; 0 where there is none
+
+    template <class A> void archive(A &a) {
+        a(name, pebbles, bonds, volume, circumscribed_radius, diameter, inertia_per_density, to_input_frame,
+          mass_centre, phi_nominal);
+    }
+};
+
+/// Moment of inertia of one solid sphere over density about its centre, (2/5)(4/3) pi r^5 (m^5).
+constexpr double sphere_inertia_per_density(double radius) {
+    return 8.0 / 15.0 * std::numbers::pi * radius * radius * radius * radius * radius;
+}
+
+/// Volume of a sphere, 4/3 pi r^3 (m^3).
+constexpr double sphere_volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
+
+/// Inertia tensor over density of solid spheres about the origin of their offsets (m^5), exact: parallel axes summed
+/// over the pebbles, not a hull or a voxel value, so that replacing a clump by its balls keeps kinetic energy and
+/// angular momentum to rounding.
+inline mat3 inertia_tensor_per_density(const std::vector<shape_pebble> &pebbles) {
+    mat3 sum;
+    for (const shape_pebble &p : pebbles) {
+        const double v = sphere_volume(p.radius);
+        const double own = sphere_inertia_per_density(p.radius);
+        sum += (own + v * norm2(p.offset)) * mat3::identity() + (-v) * outer(p.offset, p.offset);
+    }
+    return sum;
+}
+
+/// Number of connected pieces of the bond graph; 1 for a shape that holds together.
+inline int pieces(const shape &s) {
+    std::vector<std::size_t> root(s.pebbles.size());
+    for (std::size_t i = 0; i < root.size(); ++i) root[i] = i;
+    const auto find = [&root](std::size_t i) {
+        while (root[i] != i) i = root[i] = root[root[i]];
+        return i;
+    };
+    int count = static_cast<int>(root.size());
+    for (const shape_bond &bond : s.bonds) {
+        const std::size_t a = find(static_cast<std::size_t>(bond.a));
+        const std::size_t b = find(static_cast<std::size_t>(bond.b));
+        if (a != b) root[std::max(a, b)] = std::min(a, b), --count;
+    }
+    return count;
+}
+
+/// Wadell sphericity pi^(1/3) (6 V)^(2/3) / A with V and A summed over the pebbles: 1 for a ball, n^(-1/3) for n equal
+/// pebbles. The hull of the pebbles is rounder; published sphericities of clumps usually mean a smoothed surface.
+inline double sphericity(const shape &s) {
+    double area = 0.0;
+    for (const shape_pebble &p : s.pebbles) area += 4.0 * std::numbers::pi * p.radius * p.radius;
+    return std::cbrt(std::numbers::pi) * std::cbrt(36.0 * s.volume * s.volume) / area;
+}
+
+namespace detail {
+
+struct principal_frame {
+    quaternion to_input; ///< principal axes -> axes of the tensor
+    int equal = 1;       ///< how many moments are equal: 1, 2 (the last two axes) or 3
+};
+
+/// Principal axes of a symmetric tensor. Axes that the tensor leaves free (equal moments) follow the given axes, and
+/// signs are fixed, so that the same input gives the same frame with every eigenvalue solver.
+inline principal_frame principal_axes(const mat3 &tensor) {
+    constexpr double same = 1e-9; // relative; far above rounding, far below any intended anisotropy
+    const double size = trace(tensor) / 3.0;
+    const double off = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
+    const double spread =
+        std::max({tensor(0, 0), tensor(1, 1), tensor(2, 2)}) - std::min({tensor(0, 0), tensor(1, 1), tensor(2, 2)});
+    if (off <= same * size && spread <= same * size) return {{}, 3};
+
+    Eigen::Matrix3d m;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) m(i, j) = tensor(i, j);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+    const Eigen::Vector3d moment = solver.eigenvalues(); // ascending
+    Eigen::Matrix3d axes = solver.eigenvectors();
+
+    const auto fix_sign = [](Eigen::Vector3d v) {
+        Eigen::Index largest = 0;
+        v.cwiseAbs().maxCoeff(&largest);
+        return Eigen::Vector3d(v[largest] < 0.0 ? -v : v);
+    };
+    const bool low = moment[1] - moment[0] <= same * size;
+    const bool high = moment[2] - moment[1] <= same * size;
+    int equal = 1;
+    if (low || high) {
+        // a body of revolution: its axis comes first, the other two are the given axes as far as possible
+        equal = 2;
+        const Eigen::Vector3d axis = fix_sign(axes.col(low ? 2 : 0));
+        Eigen::Index least = 0;
+        axis.cwiseAbs().minCoeff(&least);
+        const Eigen::Vector3d given = Eigen::Vector3d::Unit(least);
+        axes.col(0) = axis;
+        axes.col(1) = (given - given.dot(axis) * axis).normalized();
+    } else {
+        axes.col(0) = fix_sign(axes.col(0));
+        axes.col(1) = fix_sign(axes.col(1));
+    }
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    const Eigen::Quaterniond q(axes);
+    return {unit(quaternion{q.w(), q.x(), q.y(), q.z()}), equal};
+}
+
+inline void check_diameter(double diameter) {
+    if (!(diameter > 0.0) || !std::isfinite(diameter))
+        throw input_error("grain diameter", fmt::format("{} m", diameter), "positive and finite",
+                          "Give the diameter of the circumscribed sphere, e.g. 0.02 (20 mm).");
+}
+
+} // namespace detail
+
+/// Shape from pebbles in any frame (m): moves the origin to the mass centre, turns to principal axes (ascending
+/// moments; a body of revolution has its axis first; an isotropic one keeps the given axes), finds the bonds (|gap| <
+/// 1e-3 of the smallest radius) and the exact mass properties. Throws input_error if a radius is not positive, a number
+/// is not finite, or two pebbles overlap by more than 1e-9 d. Pieces without a common bond are accepted: see `pieces`.
+inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
+    const std::string option = fmt::format("shape '{}'", name);
+    if (pebbles.empty())
+        throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
+    shape s;
+    s.name = std::move(name);
+    vec3 moment;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < pebbles.size(); ++i) {
+        const shape_pebble &p = pebbles[i];
+        if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
+            throw input_error(option,
+                              fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
+                              "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
+        s.volume += sphere_volume(p.radius);
+        moment += sphere_volume(p.radius) * p.offset;
+        smallest = std::min(smallest, p.radius);
+    }
+    s.mass_centre = moment / s.volume;
+    for (shape_pebble &p : pebbles) p.offset -= s.mass_centre;
+
+    const detail::principal_frame frame = detail::principal_axes(inertia_tensor_per_density(pebbles));
+    s.to_input_frame = frame.to_input;
+    for (shape_pebble &p : pebbles) {
+        if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
+        s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
+    }
+    s.diameter = 2.0 * s.circumscribed_radius;
+    const mat3 tensor = inertia_tensor_per_density(pebbles);
+    s.inertia_per_density = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
+    // bit-equal moments let the integrator see an isotropic body without a tolerance
+    vec3 &inertia = s.inertia_per_density;
+    if (frame.equal == 3) inertia.x = inertia.y = inertia.z = trace(tensor) / 3.0;
+    if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
+
+    for (std::size_t a = 0; a < pebbles.size(); ++a)
+        for (std::size_t b = a + 1; b < pebbles.size(); ++b) {
+            const double touching = pebbles[a].radius + pebbles[b].radius;
+            const double distance = norm(pebbles[b].offset - pebbles[a].offset);
+            const double gap = distance - touching;
+            if (gap < -1e-9 * s.diameter)
+                throw input_error(
+                    option,
+                    fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / s.diameter),
+                    "pebbles that touch or are apart (tolerance 1e-9 of d = 2 R_circumscribed)",
+                    fmt::format("Move them apart, or multiply their radii by {:.12g}.", distance / touching));
+            if (gap < 1e-3 * smallest) s.bonds.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
+        }
+    s.pebbles = std::move(pebbles);
+    return s;
+}
+
+/// The same shape with another circumscribed diameter d (m). Throws input_error if d is not positive and finite.
+inline shape scaled_to(shape s, double diameter) {
+    detail::check_diameter(diameter);
+    const double f = diameter / s.diameter;
+    for (shape_pebble &p : s.pebbles) p.offset *= f, p.radius *= f;
+    s.volume *= f * f * f;
+    s.inertia_per_density *= f * f * f * f * f;
+    s.mass_centre *= f;
+    s.circumscribed_radius = 0.5 * diameter;
+    s.diameter = diameter;
+    return s;
+}
+
+/// Ready-made shapes. The paper (DOI 10.1007/s10035-024-01441-3, section 4) names 14- and 4-ball particles of 2 cm
+/// and of nominal sphericity 0.86 and 0.71 but gives no coordinates; the two below are the natural non-overlapping
+/// packings.
+namespace shapes {
+
+/// One pebble: a single sphere of diameter d (m).
+inline shape sphere(double diameter) {
+    detail::check_diameter(diameter);
+    shape s = make_shape("sphere", {{{}, 0.5 * diameter}});
+    s.phi_nominal = 1.0;
+    return s;
+}
+
+/// "4B": four equal touching pebbles at the corners of a regular tetrahedron, r = R_c / (1 + sqrt(3/2)), 6 bonds;
+/// d = 2 R_c in m. Isotropic inertia.
+inline shape tetrahedron_4(double diameter) {
+    detail::check_diameter(diameter);
+    const double big = 0.5 * diameter;
+    const double r = big / (1.0 + std::sqrt(1.5));
+    const double c = (big - r) / std::numbers::sqrt3;
+    shape s = make_shape("4B", {{{c, c, c}, r}, {{c, -c, -c}, r}, {{-c, c, -c}, r}, {{-c, -c, c}, r}});
+    s.phi_nominal = 0.71;
+    return s;
+}
+
+/// "14B": octahedral Apollonian packing in a sphere of diameter d (m): 6 pebbles r1 = R_c / (1 + sqrt 2) on the axes,
+/// and 8 in the octants, each tangent to three big ones and to the circumscribed sphere; 12 + 24 = 36 bonds.
+/// Isotropic inertia.
+inline shape apollonian_14(double diameter) {
+    detail::check_diameter(diameter);
+    const double big = 0.5 * diameter;
+    const double r1 = big / (1.0 + std::numbers::sqrt2);
+    const double axis = std::numbers::sqrt2 * r1;
+    // |n s - c1| = r1 + r2 with s = R_c - r2, n = (1,1,1)/sqrt 3 and c1 = (axis, 0, 0) is linear in s
+    const double sum = r1 + big;
+    const double s = (sum * sum - axis * axis) / (2.0 * (sum - axis / std::numbers::sqrt3));
+    const double r2 = big - s;
+    const double c = s / std::numbers::sqrt3;
+    std::vector<shape_pebble> pebbles = {{{axis, 0, 0}, r1},  {{-axis, 0, 0}, r1}, {{0, axis, 0}, r1},
+                                         {{0, -axis, 0}, r1}, {{0, 0, axis}, r1},  {{0, 0, -axis}, r1}};
+    for (const double x : {c, -c})
+        for (const double y : {c, -c})
+            for (const double z : {c, -c}) pebbles.push_back({{x, y, z}, r2});
+    shape result = make_shape("14B", std::move(pebbles));
+    result.phi_nominal = 0.86;
+    return result;
+}
+
+/// Shape from a text file: one pebble per line, `x y z r` (m, any frame), blank lines and text after # are skipped. The
+/// name is the file name without directory and extension. Throws input_error with file and line for what is wrong, and
+/// if the pebbles overlap or do not hold together (their bonds must form one piece).
+inline shape from_file(const std::string &path) {
+    const auto wrong = [&path](std::size_t line, const std::string &what) {
+        return input_error(fmt::format("shape file {}:{}: {}. A line holds four numbers, x y z r (m), with r > 0; text "
+                                       "after # is a comment.",
+                                       path, line, what));
+    };
+    std::ifstream file(path);
+    if (!file)
+        throw input_error("shape", path, "14B, 4B, sphere or the path of a readable text file with lines 'x y z r'",
+                          "Check the name or path.");
+    std::vector<shape_pebble> pebbles;
+    std::vector<std::size_t> line_of;
+    std::string line;
+    for (std::size_t number = 1; std::getline(file, line); ++number) {
+        constexpr std::string_view blank = " \t\r\v\f";
+        std::string_view rest(line);
+        rest = rest.substr(0, rest.find('#'));
+        std::array<double, 4> value = {};
+        std::size_t count = 0;
+        while (true) {
+            const std::size_t begin = rest.find_first_not_of(blank);
+            if (begin == std::string_view::npos) break;
+            rest.remove_prefix(begin);
+            const std::string_view word = rest.substr(0, rest.find_first_of(blank));
+            rest.remove_prefix(word.size());
+            const char *first = word.data();
+            const char *last = word.data() + word.size();
+            if (word.size() > 1 && word[0] == '+') ++first; // from_chars knows no plus sign
+            double x = 0.0;
+            const auto [end, error] = std::from_chars(first, last, x);
+            if (error != std::errc{} || end != last || !std::isfinite(x))
+                throw wrong(number, fmt::format("'{}' is not a finite number", word));
+            if (count == 4) throw wrong(number, "more than four numbers");
+            value[count++] = x;
+        }
+        if (count == 0) continue;
+        if (count < 4) throw wrong(number, fmt::format("{} of four numbers", count));
+        if (!(value[3] > 0.0)) throw wrong(number, fmt::format("the radius {} is not positive", value[3]));
+        pebbles.push_back({{value[0], value[1], value[2]}, value[3]});
+        line_of.push_back(number);
+    }
+    if (file.bad() || pebbles.empty()) throw wrong(1, file.bad() ? "the file cannot be read" : "there are no pebbles");
+
+    const std::size_t slash = path.find_last_of("/\\");
+    std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+    if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
+
+    shape s;
+    try {
+        s = make_shape(std::move(name), std::move(pebbles));
+    } catch (const input_error &error) {
+        std::string lines; // pebble numbers in that message count from 0 in the order of the file
+        for (std::size_t i = 0; i < std::min<std::size_t>(line_of.size(), 100); ++i)
+            lines += fmt::format("{}{}", i == 0 ? "" : ", ", line_of[i]);
+        throw input_error(
+            fmt::format("shape file {}: {} (pebbles 0, 1, ... are on the lines {})", path, error.what(), lines));
+    }
+    if (const int n = pieces(s); n > 1)
+        throw input_error(
+            fmt::format("shape file {}: the {} pebbles form {} separate pieces. Allowed: one piece, every pebble "
+                        "bonded to another through gaps below 1e-3 of the smallest radius. Close the gaps.",
+                        path, s.pebbles.size(), n));
+    return s;
+}
+
+/// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to the
+/// circumscribed diameter d (m). Throws input_error for an unknown name or a wrong file.
+inline shape by_name(const std::string &text, double diameter) {
+    if (text == "14B" || text == "14b") return apollonian_14(diameter);
+    if (text == "4B" || text == "4b") return tetrahedron_4(diameter);
+    if (text == "sphere") return sphere(diameter);
+    detail::check_diameter(diameter);
+    return scaled_to(from_file(text), diameter);
+}
+
+} // namespace shapes
+
+static_assert(std::is_trivially_copyable_v<shape_pebble> && std::is_trivially_copyable_v<shape_bond>);
+
+} // namespace clast
