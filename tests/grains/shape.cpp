@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <clast/grains/shape.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Inertia tensor by another road: for each pebble integrate (r^2 E - r r^T) over a ball with moments of a solid ball,
+/// int x_i x_j dV = V (c_i c_j + delta_ij r^2 / 5).
+double second_moment(const shape &s, int i, int j) {
+    double sum = 0.0;
+    for (const shape_pebble &p : s.pebbles)
+        sum += 4.0 / 3.0 * pi * std::pow(p.radius, 3) *
+               (p.offset[i] * p.offset[j] + (i == j ? p.radius * p.radius / 5.0 : 0.0));
+    return sum;
+}
+
+struct text_file {
+    std::string path;
+    explicit text_file(const std::string &text)
+        : path((std::filesystem::temp_directory_path() /
+                ("clast_shape_test_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".txt"))
+                   .string()) {
+        std::ofstream(path) << text;
+    }
+    ~text_file() { std::remove(path.c_str()); }
+    text_file(const text_file &) = delete;
+    text_file &operator=(const text_file &) = delete;
+};
+
+std::string message_of(const std::string &text) {
+    const text_file file(text);
+    try {
+        shapes::from_file(file.path);
+    } catch (const input_error &error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+bool contains(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("shape 4B is a regular tetrahedron of four touching pebbles in its circumscribed sphere") {
+    const shape s = shapes::tetrahedron_4(0.02);
+    REQUIRE(s.pebbles.size() == 4);
+    CHECK(s.bonds.size() == 6);
+    CHECK(s.diameter == Approx(0.02).epsilon(1e-15));
+    for (const shape_pebble &p : s.pebbles) {
+        CHECK(p.radius == Approx(0.01 * 0.4494897427831781).epsilon(1e-14)); // sqrt(6) - 2
+        CHECK(norm(p.offset) + p.radius == Approx(0.01).epsilon(1e-15));
+        CHECK(norm(p.offset) == Approx(5.505102572e-3).epsilon(1e-9));
+    }
+    CHECK(s.volume == Approx(1.522e-6).epsilon(5e-4));
+    CHECK(s.volume / sphere_volume(0.01) == Approx(0.3632615).epsilon(1e-6));
+    CHECK(s.phi_nominal == 0.71);
+}
+
+TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") {
+    const shape s = shapes::apollonian_14(0.02);
+    REQUIRE(s.pebbles.size() == 14);
+    CHECK(s.bonds.size() == 36);
+    int big_big = 0;
+    int big_small = 0;
+    for (const shape_bond &b : s.bonds) {
+        CHECK(b.a < b.b);
+        (b.b < 6 ? big_big : big_small) += 1;
+        CHECK(b.a < 6); // no small-small contact
+    }
+    CHECK(big_big == 12);
+    CHECK(big_small == 24);
+    for (std::size_t i = 0; i < 14; ++i) {
+        const shape_pebble &p = s.pebbles[i];
+        CHECK(norm(p.offset) + p.radius == Approx(0.01).epsilon(1e-14)); // all touch the circumscribed sphere
+        CHECK(p.radius == Approx(i < 6 ? 4.142e-3 : 2.30e-3).epsilon(1e-3));
+    }
+    CHECK(s.volume == Approx(2.194e-6).epsilon(5e-4));
+    CHECK(s.volume / sphere_volume(0.01) == Approx(0.524).epsilon(1e-3));
+}
+
+TEST_CASE("the pebbles of a shape touch but do not overlap beyond rounding") {
+    for (const shape &s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
+        for (const shape_bond &b : s.bonds) {
+            const shape_pebble &p = s.pebbles[static_cast<std::size_t>(b.a)];
+            const shape_pebble &q = s.pebbles[static_cast<std::size_t>(b.b)];
+            CHECK(std::abs(norm(p.offset - q.offset) - p.radius - q.radius) < 1e-15 * 20 * s.diameter);
+        }
+}
+
+TEST_CASE("4B and 14B have isotropic inertia that equals the second moments of their balls") {
+    for (const shape &s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02), shapes::sphere(0.02)}) {
+        CHECK(s.inertia_per_density.x == s.inertia_per_density.y); // bit-equal: integrators rely on it
+        CHECK(s.inertia_per_density.y == s.inertia_per_density.z);
+        for (int i = 0; i < 3; ++i) {
+            const double exact =
+                second_moment(s, (i + 1) % 3, (i + 1) % 3) + second_moment(s, (i + 2) % 3, (i + 2) % 3);
+            CHECK(s.inertia_per_density[i] == Approx(exact).epsilon(1e-14));
+            CHECK(std::abs(second_moment(s, i, (i + 1) % 3)) < 1e-14 * exact);
+        }
+        CHECK(s.to_input_frame == quaternion{});
+        CHECK(norm(s.mass_centre) < 1e-17);
+    }
+    CHECK(shapes::sphere(0.02).inertia_per_density.x == Approx(0.4 * sphere_volume(0.01) * 1e-4).epsilon(1e-15));
+}
+
+TEST_CASE("a two-sphere clump has the mass, centroid and inertia of the parallel axis theorem") {
+    // radii 1 and 0.5 at distance 3, along x
+    const shape s = make_shape("pair", {{{2, 7, -1}, 1.0}, {{5, 7, -1}, 0.5}});
+    const double v1 = 4.0 / 3.0 * pi;
+    const double v2 = v1 / 8.0;
+    CHECK(s.volume == Approx(1.125 * v1).epsilon(1e-15));
+    CHECK(s.mass_centre.x == Approx(2.0 + 3.0 * v2 / (v1 + v2)).epsilon(1e-15)); // 2 + 1/3
+    CHECK(s.mass_centre.y == Approx(7.0).epsilon(1e-15));
+    const double axial = 0.4 * (v1 + v2 * 0.25);
+    const double lateral = axial + v1 * v2 / (v1 + v2) * 9.0;
+    CHECK(s.inertia_per_density.x == Approx(axial).epsilon(1e-14));
+    CHECK(s.inertia_per_density.y == Approx(lateral).epsilon(1e-14));
+    CHECK(s.inertia_per_density.y == s.inertia_per_density.z);
+    CHECK(s.bonds.empty());
+    CHECK(pieces(s) == 2);
+    CHECK(s.circumscribed_radius == Approx(3.0 * 8.0 / 9.0 + 0.5).epsilon(1e-15));
+}
+
+TEST_CASE("principal axes are right-handed and lead back to the given pebbles") {
+    const vec3 shift{0.3, -0.2, 0.9};
+    const std::vector<shape_pebble> given = {
+        {{0, 0, 0}, 1.0}, {{1.9, 0.4, 0.6}, 0.9}, {{-0.3, 1.6, 0.2}, 0.5}, {{0.5, -0.3, -1.5}, 0.55}};
+    std::vector<shape_pebble> moved = given;
+    for (shape_pebble &p : moved) p.offset += shift;
+    const shape s = make_shape("irregular", moved);
+    const double scale = s.inertia_per_density.z;
+    CHECK(s.inertia_per_density.x < s.inertia_per_density.y);
+    CHECK(s.inertia_per_density.y < s.inertia_per_density.z);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(second_moment(s, i, (i + 1) % 3)) < 1e-13 * scale);
+    for (std::size_t i = 0; i < given.size(); ++i)
+        CHECK(norm(rotate(s.to_input_frame, s.pebbles[i].offset) + s.mass_centre - moved[i].offset) < 1e-14);
+}
+
+TEST_CASE("a body of revolution keeps its axis first and does not spin freely about it") {
+    const vec3 axis = unit(vec3{1, 2, 2});
+    const shape s = make_shape("dumbbell", {{axis, 1.0}, {-axis, 1.0}});
+    CHECK(s.inertia_per_density.y == s.inertia_per_density.z);
+    CHECK(s.inertia_per_density.x < s.inertia_per_density.y);
+    CHECK(norm(rotate(s.to_input_frame, {1, 0, 0}) - axis) < 1e-14);
+    // the second axis is the given axis that is least along the body's axis (here x), made normal to it
+    CHECK(norm(rotate(s.to_input_frame, {0, 1, 0}) - unit(reject(vec3{1, 0, 0}, axis))) < 1e-14);
+    CHECK(s.bonds.size() == 1);
+}
+
+TEST_CASE("scaling a shape scales volume with d^3 and inertia with d^5") {
+    const shape a = shapes::apollonian_14(0.02);
+    const shape b = scaled_to(a, 0.06);
+    const shape c = shapes::apollonian_14(0.06);
+    CHECK(b.diameter == 0.06);
+    CHECK(b.volume == Approx(27.0 * a.volume).epsilon(1e-14));
+    CHECK(b.inertia_per_density.x == Approx(243.0 * a.inertia_per_density.x).epsilon(1e-14));
+    CHECK(b.inertia_per_density.x == b.inertia_per_density.z);
+    CHECK(c.inertia_per_density.x == Approx(b.inertia_per_density.x).epsilon(1e-14));
+    CHECK(norm(c.pebbles[9].offset - b.pebbles[9].offset) < 1e-16);
+    CHECK_THROWS_AS(scaled_to(a, 0.0), input_error);
+    CHECK_THROWS_AS(scaled_to(a, std::nan("")), input_error);
+    CHECK_THROWS_AS(shapes::tetrahedron_4(-0.02), input_error);
+}
+
+TEST_CASE("summed-surface sphericity has its analytic values") {
+    CHECK(sphericity(shapes::sphere(0.02)) == Approx(1.0).epsilon(1e-14));
+    CHECK(sphericity(shapes::tetrahedron_4(0.02)) == Approx(std::pow(4.0, -1.0 / 3.0)).epsilon(1e-14)); // 0.630
+    CHECK(sphericity(make_shape("two", {{{-1, 0, 0}, 1}, {{1, 0, 0}, 1}})) == Approx(0.7937005260).epsilon(1e-10));
+    CHECK(sphericity(shapes::apollonian_14(0.02)) == Approx(0.447).epsilon(1e-3));
+}
+
+TEST_CASE("overlapping pebbles are refused with the pair, the overlap and the factor that cures it") {
+    const auto overlapping = [] { return make_shape("bad", {{{0, 0, 0}, 1.0}, {{5, 0, 0}, 1.0}, {{5, 1.9, 0}, 1.0}}); };
+    CHECK_THROWS_AS(overlapping(), input_error);
+    try {
+        overlapping();
+    } catch (const input_error &error) {
+        CHECK(contains(error.what(), "'bad'"));
+        CHECK(contains(error.what(), "pebbles 1 and 2 overlap by 0.1 m"));
+        CHECK(contains(error.what(), "multiply their radii by 0.95"));
+    }
+    // within the tolerance of 1e-9 d, and just outside it
+    CHECK_NOTHROW(make_shape("touch", {{{-1, 0, 0}, 1.0}, {{1 - 2e-9, 0, 0}, 1.0}}));
+    CHECK_THROWS_AS(make_shape("deep", {{{-1, 0, 0}, 1.0}, {{1 - 8e-9, 0, 0}, 1.0}}), input_error);
+    CHECK_THROWS_AS(make_shape("empty", {}), input_error);
+    CHECK_THROWS_AS(make_shape("flat", {{{0, 0, 0}, 0.0}}), input_error);
+    CHECK_THROWS_AS(make_shape("nan", {{{std::nan(""), 0, 0}, 1.0}}), input_error);
+}
+
+TEST_CASE("pebbles are bonded up to a gap of a thousandth of the smallest radius") {
+    CHECK(make_shape("close", {{{0, 0, 0}, 1.0}, {{1.5 + 4.9e-4, 0, 0}, 0.5}}).bonds.size() == 1);
+    CHECK(make_shape("apart", {{{0, 0, 0}, 1.0}, {{1.5 + 5.1e-4, 0, 0}, 0.5}}).bonds.empty());
+}
+
+TEST_CASE("a shape file gives the same shape as its pebbles") {
+    const text_file file("# x y z r, in any unit when read by name\r\n\r\n-1 0\t0 1   # left\n  +1.0 0 0 1e0\n");
+    const shape s = shapes::from_file(file.path);
+    CHECK(s.pebbles.size() == 2);
+    CHECK(s.bonds.size() == 1);
+    CHECK(contains(file.path, s.name));
+    CHECK(s.diameter == Approx(4.0).epsilon(1e-15));
+    const shape scaled = shapes::by_name(file.path, 0.02);
+    CHECK(scaled.diameter == 0.02);
+    CHECK(scaled.pebbles[0].radius == Approx(0.005).epsilon(1e-15));
+}
+
+TEST_CASE("a wrong shape file is refused with its line and what is wrong") {
+    CHECK(contains(message_of("0 0 0 1\n0 0 1\n"), ":2: 3 of four numbers"));
+    CHECK(contains(message_of("0 0 0 1 7\n"), ":1: more than four numbers"));
+    CHECK(contains(message_of("# a\n0 0 zero 1\n"), ":2: 'zero' is not a finite number"));
+    CHECK(contains(message_of("0 0 0 1mm\n"), "'1mm' is not a finite number"));
+    CHECK(contains(message_of("0 0 inf 1\n"), "'inf' is not a finite number"));
+    CHECK(contains(message_of("0 0 0 -1\n"), ":1: the radius -1 is not positive"));
+    CHECK(contains(message_of("# nothing\n\n"), "there are no pebbles"));
+    CHECK(contains(message_of("0 0 0 1\n\n1 0 0 1\n"), "pebbles 0 and 1 overlap by 1 m"));
+    CHECK(contains(message_of("0 0 0 1\n\n1 0 0 1\n"), "on the lines 1, 3"));
+    CHECK(contains(message_of("0 0 0 1\n2 0 0 1\n9 0 0 1\n"), "3 pebbles form 2 separate pieces"));
+}
+
+TEST_CASE("a shape is chosen by name, and an unknown name is refused with the choices") {
+    CHECK(shapes::by_name("14B", 0.02).pebbles.size() == 14);
+    CHECK(shapes::by_name("4B", 0.02).pebbles.size() == 4);
+    CHECK(shapes::by_name("sphere", 0.02).pebbles.size() == 1);
+    CHECK_THROWS_AS(shapes::by_name("15B", 0.02), input_error);
+    try {
+        shapes::by_name("15B", 0.02);
+    } catch (const input_error &error) {
+        CHECK(contains(error.what(), "14B, 4B, sphere"));
+    }
+}
