@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// Bonded clusters of one shape, advanced with small steps of their own (multirate), eight clusters side by side.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <clast/bonds/lattice.hpp>
+#include <clast/bonds/parallel.hpp>
+#include <clast/measure/sample.hpp>
+
+namespace clast::bonds {
+
+/// What a ball of a cluster brings into a sub-cycle and takes out of it.
+struct ball_motion {
+    vec3 velocity; ///< m/s
+    vec3 spin;     ///< rad/s
+};
+
+/// A bond that failed in a sub-cycle.
+struct break_report {
+    std::int32_t cluster;
+    std::int32_t bond;
+    break_mode mode;
+    state before; ///< what it carried (world axes)
+};
+
+/// Clusters of one shape. Cluster c sits in lane c % 8 of batch c / 8 for life, so that one loop over the lanes does the
+/// same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set.
+///
+/// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with
+/// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers it).
+class cluster_pool {
+  public:
+    static constexpr std::size_t lanes = 8;
+
+    cluster_pool() = default;
+    /// damping: coefficient of local damping in [0, 1).
+    cluster_pool(lattice shape, double damping) : shape_(std::move(shape)), damping_(damping) {}
+
+    const lattice& shape() const { return shape_; }
+    std::size_t size() const { return size_; }
+    std::size_t batches() const { return (size_ + lanes - 1) / lanes; }
+    std::size_t bonds() const { return shape_.ends.size(); }
+
+    /// Adds a cluster with the given bond states; returns its number.
+    std::size_t add(std::span<const state> born) {
+        if (size_ % lanes == 0) {
+            values_.resize(values_.size() + bonds() * fields * lanes, 0.0);
+            intact_.resize(intact_.size() + lanes, 0);
+        }
+        const std::size_t c = size_++;
+        for (std::size_t b = 0; b < bonds(); ++b) {
+            put(c, b, born[b]);
+            value(c, b, alive) = 1.0;
+        }
+        intact_[c] = static_cast<std::int32_t>(bonds());
+        return c;
+    }
+
+    bool is_intact(std::size_t cluster, std::size_t bond) const { return value(cluster, bond, alive) != 0.0; }
+    std::int32_t intact_bonds(std::size_t cluster) const { return intact_[cluster]; }
+    state get(std::size_t c, std::size_t b) const {
+        return {value(c, b, normal_force),
+                {value(c, b, shear), value(c, b, shear + 1), value(c, b, shear + 2)},
+                value(c, b, twist),
+                {value(c, b, bending), value(c, b, bending + 1), value(c, b, bending + 2)}};
+    }
+    /// Elastic energy in the bonds of a cluster (J).
+    double energy(std::size_t cluster) const {
+        double e = 0.0;
+        for (std::size_t b = 0; b < bonds(); ++b)
+            if (is_intact(cluster, b)) e += bonds::energy(shape_.bond[b], get(cluster, b));
+        return e;
+    }
+
+    /// Number of inner steps for an outer step: the highest mode turns by at most 1 rad per inner step. Local damping
+    /// a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at a = 0.7; the rest is margin.
+    int substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt * shape_.highest_frequency))); }
+
+    /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes, lane
+    /// by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the present unit
+    /// normals. Clusters without intact bonds, and empty lanes, are left alone. Returns the energy taken out by damping
+    /// per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
+    template <class Normal>
+    std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
+                                      std::span<const pebble_load> load, std::span<vec3> displacement, Normal&& normal,
+                                      std::vector<break_report>& broken) {
+        const std::size_t n = shape_.size(), m = bonds();
+        std::array<double, lanes> dissipated{};
+        std::array<double, lanes> live{};
+        bool any = false;
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const std::size_t c = batch * lanes + l;
+            live[l] = c < size_ && intact_[c] > 0 ? 1.0 : 0.0;
+            any = any || live[l] > 0.0;
+        }
+        if (!any) return dissipated;
+
+        // lane-wise copies: v, w, external f and t, summed f and t, displacement
+        std::vector<double> scratch((n * 21 + m * 3) * lanes, 0.0);
+        double* const v = scratch.data();
+        double* const w = v + n * 3 * lanes;
+        double* const fe = w + n * 3 * lanes;
+        double* const te = fe + n * 3 * lanes;
+        double* const f = te + n * 3 * lanes;
+        double* const t = f + n * 3 * lanes;
+        double* const u = t + n * 3 * lanes;
+        double* const axis = u + n * 3 * lanes;
+        const auto at = [](std::size_t item, std::size_t component, std::size_t lane) {
+            return (item * 3 + component) * lanes + lane;
+        };
+        for (std::size_t l = 0; l < lanes; ++l) {
+            if (live[l] == 0.0) continue;
+            const std::size_t c = batch * lanes + l;
+            for (std::size_t i = 0; i < n; ++i) {
+                const ball_motion& ball = balls[l * n + i];
+                const pebble_load& external = load[l * n + i];
+                for (int a = 0; a < 3; ++a) {
+                    const std::size_t k = at(i, static_cast<std::size_t>(a), l);
+                    v[k] = ball.velocity[a], w[k] = ball.spin[a];
+                    fe[k] = external.force[a], te[k] = external.moment[a];
+                }
+            }
+            for (std::size_t b = 0; b < m; ++b) {
+                const vec3 nb = normal(l, b);
+                for (int a = 0; a < 3; ++a) axis[at(b, static_cast<std::size_t>(a), l)] = nb[a];
+                state s = get(c, b);
+                const std::size_t i = end_a(b), j = end_b(b);
+                turn(s, nb, 0.5 * (balls[l * n + i].spin + balls[l * n + j].spin), dt);
+                put(c, b, s);
+            }
+        }
+        const int steps = substeps(dt);
+        const double h = dt / steps;
+        if (gather(batch, 0.0, v, w, f, t, axis)) collect(batch, broken); // loads of the bonds as they stand
+        for (int step = 0; step < steps; ++step) {
+            kick(h, v, w, fe, te, f, t, u, live, dissipated);
+            if (gather(batch, h, v, w, f, t, axis)) collect(batch, broken);
+        }
+        for (std::size_t l = 0; l < lanes; ++l) {
+            if (live[l] == 0.0) continue;
+            for (std::size_t i = 0; i < n; ++i)
+                for (int a = 0; a < 3; ++a) {
+                    const std::size_t k = at(i, static_cast<std::size_t>(a), l);
+                    balls[l * n + i].velocity[a] = v[k];
+                    balls[l * n + i].spin[a] = w[k];
+                    displacement[l * n + i][a] = u[k];
+                }
+        }
+        return dissipated;
+    }
+
+    template <class A>
+    void archive(A& a) {
+        a(size_, values_, intact_);
+    }
+
+  private:
+    enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, failing_now = 9, fields = 10 };
+
+    std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
+    double& value(std::size_t c, std::size_t b, std::size_t f) { return values_[base(c / lanes, b) + f * lanes + c % lanes]; }
+    double value(std::size_t c, std::size_t b, std::size_t f) const {
+        return values_[base(c / lanes, b) + f * lanes + c % lanes];
+    }
+    std::size_t end_a(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].a); }
+    std::size_t end_b(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].b); }
+    void put(std::size_t c, std::size_t b, const state& s) {
+        value(c, b, normal_force) = s.n;
+        value(c, b, twist) = s.mt;
+        for (int a = 0; a < 3; ++a) {
+            value(c, b, shear + static_cast<std::size_t>(a)) = s.v[a];
+            value(c, b, bending + static_cast<std::size_t>(a)) = s.mb[a];
+        }
+    }
+
+    /// Kick of all balls of a batch by external and bond loads with local damping, then their drift.
+    void kick(double h, double* v, double* w, const double* fe, const double* te, const double* f, const double* t,
+              double* u, const std::array<double, lanes>& live, std::array<double, lanes>& dissipated) const {
+        const std::size_t n = shape_.size();
+        std::array<double, lanes> work{};
+        for (std::size_t i = 0; i < n; ++i) {
+            const double per_mass = h / shape_.mass[i], per_inertia = h / shape_.inertia[i];
+            for (std::size_t a = 0; a < 3; ++a) {
+                const std::size_t k = (i * 3 + a) * lanes;
+#ifdef _OPENMP
+#pragma omp simd
+#endif
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const double force = fe[k + l] + f[k + l], moment = te[k + l] + t[k + l];
+                    const double v0 = v[k + l], w0 = w[k + l];
+                    const double fd = damping_ * std::abs(force) * (v0 > 0.0 ? 1.0 : v0 < 0.0 ? -1.0 : 0.0);
+                    const double td = damping_ * std::abs(moment) * (w0 > 0.0 ? 1.0 : w0 < 0.0 ? -1.0 : 0.0);
+                    const double v1 = v0 + per_mass * (force - fd) * live[l];
+                    const double w1 = w0 + per_inertia * (moment - td) * live[l];
+                    work[l] += 0.5 * h * (fd * (v0 + v1) + td * (w0 + w1)) * live[l];
+                    v[k + l] = v1, w[k + l] = w1;
+                    u[k + l] += h * v1;
+                }
+            }
+        }
+        for (std::size_t l = 0; l < lanes; ++l) dissipated[l] += work[l];
+    }
+
+    /// Stretches all bonds of a batch by a step h and sums their loads per ball. True if a bond of a lane failed.
+    bool gather(std::size_t batch, double h, const double* v, const double* w, double* f, double* t, const double* axis) {
+        const std::size_t n = shape_.size(), m = bonds();
+        std::fill(f, f + n * 3 * lanes, 0.0);
+        std::fill(t, t + n * 3 * lanes, 0.0);
+        double failures = 0.0;
+        for (std::size_t b = 0; b < m; ++b) {
+            const constants c = shape_.bond[b];
+            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
+            const double ra = shape_.radius[end_a(b)], rb = shape_.radius[end_b(b)];
+            double* const s = values_.data() + base(batch, b);
+            const double* const nb = axis + b * 3 * lanes;
+#ifdef _OPENMP
+#pragma omp simd reduction(+ : failures)
+#endif
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const auto load3 = [l](const double* p) { return vec3{p[l], p[lanes + l], p[2 * lanes + l]}; };
+                const auto add3 = [l](double* p, const vec3& a) {
+                    p[l] += a.x, p[lanes + l] += a.y, p[2 * lanes + l] += a.z;
+                };
+                const auto store3 = [l](double* p, const vec3& a) {
+                    p[l] = a.x, p[lanes + l] = a.y, p[2 * lanes + l] = a.z;
+                };
+                const vec3 normal = load3(nb), wa = load3(w + i), wb = load3(w + j);
+                const double exists = s[alive * lanes + l];
+                state bond{s[normal_force * lanes + l], load3(s + shear * lanes), s[twist * lanes + l],
+                           load3(s + bending * lanes)};
+                stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3(v + i), wa, load3(v + j), wb), wb - wa,
+                        h * exists);
+                s[normal_force * lanes + l] = bond.n;
+                store3(s + shear * lanes, bond.v);
+                s[twist * lanes + l] = bond.mt;
+                store3(s + bending * lanes, bond.mb);
+                const failure_flags fails = failing(c, bond);
+                const double code = exists * (fails.tension ? 1.0 : fails.shear ? 2.0 : 0.0);
+                s[failing_now * lanes + l] = code;
+                failures += code;
+                const wrench wr = loads(bond, normal, ra, rb);
+                add3(f + i, wr.force_a);
+                add3(f + j, -wr.force_a);
+                add3(t + i, wr.moment_a);
+                add3(t + j, wr.moment_b);
+            }
+        }
+        if (failures == 0.0) return false;
+        // a failed bond lets go at once: take its load off the sums
+        for (std::size_t b = 0; b < m; ++b)
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const std::size_t c = batch * lanes + l;
+                if (c >= size_ || value(c, b, failing_now) == 0.0) continue;
+                const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l], axis[(b * 3 + 2) * lanes + l]};
+                const wrench wr =
+                    loads(get(c, b), normal, shape_.radius[end_a(b)], shape_.radius[end_b(b)]);
+                for (int a = 0; a < 3; ++a) {
+                    const auto k = static_cast<std::size_t>(a) * lanes + l;
+                    f[end_a(b) * 3 * lanes + k] -= wr.force_a[a];
+                    f[end_b(b) * 3 * lanes + k] += wr.force_a[a];
+                    t[end_a(b) * 3 * lanes + k] -= wr.moment_a[a];
+                    t[end_b(b) * 3 * lanes + k] -= wr.moment_b[a];
+                }
+            }
+        return true;
+    }
+
+    /// Reports and removes the bonds that failed in the last gather.
+    void collect(std::size_t batch, std::vector<break_report>& broken) {
+        for (std::size_t b = 0; b < bonds(); ++b)
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const std::size_t c = batch * lanes + l;
+                if (c >= size_ || value(c, b, failing_now) == 0.0) continue;
+                broken.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(b),
+                                  value(c, b, failing_now) == 1.0 ? break_mode::tension : break_mode::shear, get(c, b)});
+                put(c, b, {});
+                value(c, b, alive) = 0.0;
+                value(c, b, failing_now) = 0.0;
+                --intact_[c];
+            }
+    }
+
+    lattice shape_;
+    double damping_ = 0.0;
+    std::size_t size_ = 0;
+    std::vector<double> values_;       ///< [batch][bond][field][lane]
+    std::vector<std::int32_t> intact_; ///< per cluster
+};
+
+} // namespace clast::bonds

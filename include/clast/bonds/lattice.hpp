@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// The bonds of a whole shape as one linear system: stiffness matrix, highest frequency, static solution.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include <clast/bonds/parallel.hpp>
+#include <clast/grains/shape.hpp>
+
+namespace clast::bonds {
+
+/// Force and moment on one pebble about its centre.
+struct pebble_load {
+    vec3 force;  ///< N
+    vec3 moment; ///< N m
+};
+
+/// A shape held together by parallel bonds, in its body frame. Made once per shape and material; grains share it.
+struct lattice {
+    std::vector<constants> bond;    ///< per bond of the shape
+    std::vector<shape_bond> ends;   ///< pebble indices
+    std::vector<vec3> normal;       ///< from a to b, body frame
+    std::vector<double> radius;     ///< per pebble (m)
+    std::vector<double> mass;       ///< per pebble (kg)
+    std::vector<double> inertia;    ///< per pebble, 2/5 m r^2 (kg m^2)
+    std::vector<vec3> offset;       ///< per pebble, body frame (m)
+    Eigen::MatrixXd pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
+    double highest_frequency = 0.0; ///< largest eigenfrequency with all bonds intact (rad/s)
+
+    lattice() = default;
+    /// density (kg/m^3) > 0.
+    lattice(const shape& s, const parallel& material, double density) {
+        const auto n = static_cast<Eigen::Index>(s.pebbles.size());
+        for (const shape_pebble& p : s.pebbles) {
+            offset.push_back(p.offset);
+            radius.push_back(p.radius);
+            mass.push_back(density * sphere_volume(p.radius));
+            inertia.push_back(density * sphere_inertia_per_density(p.radius));
+        }
+        ends = s.bonds;
+        for (const shape_bond& b : ends) {
+            bond.push_back(constants_of(material, radius[at(b.a)], radius[at(b.b)]));
+            normal.push_back(unit(offset[at(b.b)] - offset[at(b.a)]));
+        }
+        const Eigen::MatrixXd k = stiffness();
+        if (ends.empty()) {
+            pseudo_inverse = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+            return;
+        }
+        Eigen::VectorXd weight(6 * n);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index a = 0; a < 3; ++a) {
+                weight(6 * i + a) = 1.0 / std::sqrt(mass[static_cast<std::size_t>(i)]);
+                weight(6 * i + 3 + a) = 1.0 / std::sqrt(inertia[static_cast<std::size_t>(i)]);
+            }
+        // scaled by the masses, so that forces and moments are of one unit, rigid motions stand out clearly
+        const Eigen::MatrixXd scaled = weight.asDiagonal() * k * weight.asDiagonal();
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
+        const double largest = modes.eigenvalues()(6 * n - 1);
+        highest_frequency = std::sqrt(largest);
+        Eigen::VectorXd inverse = modes.eigenvalues();
+        for (Eigen::Index i = 0; i < 6 * n; ++i) inverse(i) = inverse(i) > 1e-9 * largest ? 1.0 / inverse(i) : 0.0;
+        pseudo_inverse = weight.asDiagonal() * modes.eigenvectors() * inverse.asDiagonal() *
+                         modes.eigenvectors().transpose() * weight.asDiagonal();
+    }
+
+    std::size_t size() const { return offset.size(); }
+
+    /// Bond stiffness matrix, built by the bond's own law from unit displacements.
+    Eigen::MatrixXd stiffness() const {
+        const auto n = static_cast<Eigen::Index>(size());
+        Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+        for (std::size_t e = 0; e < ends.size(); ++e) {
+            const std::size_t side[2] = {at(ends[e].a), at(ends[e].b)};
+            for (int moving = 0; moving < 2; ++moving)
+                for (int axis = 0; axis < 6; ++axis) {
+                    vec3 v[2], w[2];
+                    (axis < 3 ? v : w)[moving][axis % 3] = 1.0;
+                    state s;
+                    stretch(bond[e], s, normal[e],
+                            relative_velocity(normal[e], radius[side[0]], radius[side[1]], v[0], w[0], v[1], w[1]),
+                            w[1] - w[0], 1.0);
+                    const wrench load = loads(s, normal[e], radius[side[0]], radius[side[1]]);
+                    const auto column = static_cast<Eigen::Index>(6 * side[moving]) + axis;
+                    for (int r = 0; r < 3; ++r) {
+                        const auto a = static_cast<Eigen::Index>(6 * side[0]) + r;
+                        const auto b = static_cast<Eigen::Index>(6 * side[1]) + r;
+                        k(a, column) -= load.force_a[r];
+                        k(a + 3, column) -= load.moment_a[r];
+                        k(b, column) += load.force_a[r];
+                        k(b + 3, column) -= load.moment_b[r];
+                    }
+                }
+        }
+        return k;
+    }
+
+    /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes) while
+    /// it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with minimum
+    /// norm. `spin` is the angular velocity (rad/s).
+    std::vector<state> statics(std::span<const pebble_load> load, const quaternion& q, const vec3& spin) const {
+        const std::size_t n = size();
+        // rigid motion under the loads
+        vec3 force, moment;
+        double total = 0.0;
+        mat3 tensor;
+        std::vector<vec3> arm(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            arm[i] = rotate(q, offset[i]);
+            force += load[i].force;
+            moment += load[i].moment + cross(arm[i], load[i].force);
+            total += mass[i];
+            tensor += (inertia[i] + mass[i] * norm2(arm[i])) * mat3::identity() + (-mass[i]) * outer(arm[i], arm[i]);
+        }
+        const vec3 linear = force / total;
+        const vec3 gyroscopic = cross(spin, tensor * spin);
+        Eigen::Matrix3d inertia_matrix;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) inertia_matrix(i, j) = tensor(i, j);
+        const vec3 net = moment - gyroscopic;
+        const Eigen::Vector3d a = inertia_matrix.ldlt().solve(Eigen::Vector3d(net.x, net.y, net.z));
+        const vec3 angular{a(0), a(1), a(2)};
+        Eigen::VectorXd f(static_cast<Eigen::Index>(6 * n));
+        for (std::size_t i = 0; i < n; ++i) {
+            const vec3 acceleration = linear + cross(angular, arm[i]) + cross(spin, cross(spin, arm[i]));
+            const vec3 rest = rotate_back(q, load[i].force - mass[i] * acceleration);
+            const vec3 turn_rest = rotate_back(q, load[i].moment - inertia[i] * angular);
+            for (int k = 0; k < 3; ++k) {
+                f(static_cast<Eigen::Index>(6 * i) + k) = rest[k];
+                f(static_cast<Eigen::Index>(6 * i) + 3 + k) = turn_rest[k];
+            }
+        }
+        const Eigen::VectorXd u = pseudo_inverse * f;
+        std::vector<state> born(ends.size());
+        const auto part = [&](std::size_t pebble, int first) {
+            const auto k = static_cast<Eigen::Index>(6 * pebble) + first;
+            return vec3{u(k), u(k + 1), u(k + 2)};
+        };
+        for (std::size_t e = 0; e < ends.size(); ++e) {
+            const std::size_t i = at(ends[e].a), j = at(ends[e].b);
+            state s;
+            stretch(bond[e], s, normal[e],
+                    relative_velocity(normal[e], radius[i], radius[j], part(i, 0), part(i, 3), part(j, 0), part(j, 3)),
+                    part(j, 3) - part(i, 3), 1.0);
+            born[e] = {s.n, rotate(q, s.v), s.mt, rotate(q, s.mb)};
+        }
+        return born;
+    }
+
+  private:
+    static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+};
+
+} // namespace clast::bonds
