@@ -42,6 +42,8 @@ TEST_CASE("moments are damped along the body's axes") {
     const vec3 axis = unit(vec3{1, 1, 0});
     const vec3 m = damping_moment(q, 3.0 * axis, 2.0 * axis, 0.7);
     CHECK(norm(m + 2.1 * axis) < 1e-15);
+    // a spin that is negative about body x, though its world x component is positive
+    CHECK(norm(damping_moment(q, 3.0 * axis, vec3{1, -2, 0}, 0.7) - 2.1 * axis) < 1e-15);
     // across: the spin about body x meets no moment about body x
     CHECK(norm(damping_moment(q, vec3{0, 0, 4}, 2.0 * axis, 0.7)) < 1e-15);
 }

@@ -120,12 +120,12 @@ TEST_CASE("energy of a free body does not drift, only oscillates, and the quater
 }
 
 TEST_CASE("the free motion runs back to where it came from") {
-    for (const double angle : {1e-5, 1e-3, 0.05, 0.5}) {
+    for (const double angle : {1e-5, 1e-3, 9e-3, 0.05, 0.5}) {
         top t({1.0 / 3.0, 1.0 / 1.2, 1.0 / 1.5}, {0.9, 0.24, 0.6});
         const double dt = angle / 1.2;
         t.steps(20000, dt);
         t.steps(20000, -dt);
-        CHECK(angle_between(t.q, {}) < 1e-9);
+        CHECK(angle_between(t.q, {}) < (angle < 0.01 ? 1e-11 : 1e-9));
     }
 }
 

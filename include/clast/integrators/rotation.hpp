@@ -95,7 +95,7 @@ inline turned advance_rotation(const quaternion& q, const vec3& angular_momentum
     // Half a step to the middle, by the series about the middle itself: implicit, and each pass gains a factor of about
     // |w| dt / 2. The numbers of passes reach rounding.
     const bool small = angle2 < 1e-4;
-    const int passes = small ? 2 : angle2 < 1e-2 ? 7 : 30;
+    const int passes = small ? 1 : angle2 < 1e-2 ? 7 : 30;
     const double h = 0.5 * dt;
     const auto turned_by = [small](const vec3& angle) {
         return small ? detail::small_rotation(angle) : rotation(angle);
