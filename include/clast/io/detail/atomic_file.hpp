@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,20 @@
 #include <clast/core/errors.hpp>
 
 namespace clast::detail {
+
+using file_handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// The whole content of a file. Throws input_error.
+inline std::string read_whole(const std::filesystem::path& path) {
+    const file_handle file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) throw input_error(fmt::format("'{}' cannot be opened: {}", path.string(), std::strerror(errno)));
+    std::string text;
+    char block[1 << 14];
+    while (const std::size_t n = std::fread(block, 1, sizeof block, file.get())) text.append(block, n);
+    if (std::ferror(file.get()))
+        throw input_error(fmt::format("'{}' cannot be read: {}", path.string(), std::strerror(errno)));
+    return text;
+}
 
 inline run_error write_failed(const std::filesystem::path& path, int error, const std::string& kept) {
     const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
