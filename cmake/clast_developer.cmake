@@ -31,5 +31,9 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         target_compile_options(clast_developer INTERFACE -fsanitize=${sanitizers} -fno-sanitize-recover=all
                                                          -fno-omit-frame-pointer -g)
         target_link_options(clast_developer INTERFACE -fsanitize=${sanitizers})
+        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+            # GCC warns of its own instrumentation, as its manual says of -fsanitize
+            target_compile_options(clast_developer INTERFACE -Wno-maybe-uninitialized)
+        endif()
     endif()
 endif()

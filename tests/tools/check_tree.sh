@@ -33,6 +33,10 @@ while IFS= read -r source; do
     esac
     if ! grep -Fqx -- "$path" "$built"; then fault "$source: in no test program"; fi
     if ! grep -q 'TEST_CASE' "$source"; then fault "$source: no TEST_CASE"; fi
+    # CMake splits lists at semicolons outside brackets, so such a name would hide its neighbours from ctest.
+    if grep -qzE 'TEST_CASE\([[:space:]]*"[^"]*[][;\\]' "$source"; then
+        fault "$source: name of a TEST_CASE with one of [ ] ; \\"
+    fi
 done < <(find tests -name '*.cpp' | sort)
 
 sources() { find .ci CMakeLists.txt CMakePresets.json cmake include tests examples benchmarks docs README.md -type f 2>/dev/null | sort; }

@@ -13,7 +13,7 @@ make_sound_tree() {
     cd "$tree/root"
     printf '%s\n#pragma once\n' "$licence" | tee include/clast/clast.hpp include/clast/core/fwd.hpp \
         include/clast/core/a.hpp >include/clast/core/detail/b.hpp
-    printf '%s\n// see https://example.org/home/page\nTEST_CASE("a") {}\n' "$licence" >tests/core/a.cpp
+    printf '%s\n// see https://example.org/home/page\nTEST_CASE("a", "[tag]") {}\n' "$licence" >tests/core/a.cpp
     printf 'core/a.cpp\n' >../built.txt
 }
 
@@ -37,6 +37,9 @@ expect "tests/core/a.cpp: in no test program"
 make_sound_tree
 printf '%s\n' "$licence" >tests/core/a.cpp
 expect "tests/core/a.cpp: no TEST_CASE"
+make_sound_tree
+printf '%s\nTEST_CASE(\n"lies in [0, 1)", "[a]") {}\n' "$licence" >tests/core/a.cpp
+expect "tests/core/a.cpp: name of a TEST_CASE"
 make_sound_tree
 printf '#pragma once\n' >include/clast/core/a.hpp
 expect "include/clast/core/a.hpp: no licence"
