@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a breakage criterion is: how close a clump is to breaking, from what its neighbours do to it.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include <clast/core/vector.hpp>
+
+namespace clast::criteria {
+
+/// What a criterion reads of a grain_load beyond diameter and volume. A set of flags: the engine fills only what is
+/// asked.
+enum class needs : unsigned {
+    nothing = 0,
+    largest_force = 1,   ///< grain_load::largest_force
+    largest_contact = 2, ///< contact_radius and contact_modulus of the contact behind largest_force
+    stress = 4,          ///< grain_load::stress
+    grain_id = 8         ///< grain_load::grain
+};
+
+constexpr needs operator|(needs a, needs b) {
+    return static_cast<needs>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+/// True if everything in `asked` is in `given`.
+constexpr bool contains(needs given, needs asked) {
+    return (static_cast<unsigned>(asked) & ~static_cast<unsigned>(given)) == 0U;
+}
+
+/// What a criterion may know about one clump, filled by the engine. Members that it did not ask for are left at zero.
+struct grain_load {
+    double diameter = 0.0; ///< of the circumscribed sphere, d (m), positive
+    double volume = 0.0;   ///< of the pebbles (m^3), positive
+    /// Largest force by one neighbour (N): the resultant of its contacts, because the crushing test measures the
+    /// platen's force, which is a resultant too; or the largest single contact, if the engine is told so.
+    double largest_force = 0.0;
+    /// Mean stress (Pa, compression positive): -(1/V) sum f (x) l, f the force on the grain at the arm l from its mass
+    /// centre, V the pebble volume. Symmetric only if the moments balance: criteria use the symmetric part.
+    mat3 stress;
+    double contact_radius = 0.0;  ///< r' = r1 r2 / (r1 + r2) of the contact behind largest_force (m)
+    double contact_modulus = 0.0; ///< E', 1/E' = sum (1 - nu_i^2) / E_i, of that contact (Pa)
+    double strength_factor = 1.0; ///< strength of this grain over that of its size (scatter), positive
+    std::int64_t grain = -1;      ///< id of the grain
+};
+
+/// A criterion that is evaluated: a small struct of plain values with
+/// - `static constexpr bool evaluated = true`,
+/// - `static constexpr criteria::needs needs`: all that it may ever read (a value may need less, see needs_of),
+/// - `double utilisation(const grain_load&) const` -> u in [0, inf), pure; the grain breaks at u = 1, and a replacement
+///   policy acts at its `trigger`.
+/// Convention: two opposite forces F on the reference grain (diameter d0) give u = F / (sigma0 d0^2), so all criteria
+/// agree on the crushing test that defines sigma0 and differ elsewhere.
+template <class C>
+concept evaluated_criterion = std::copyable<C> && requires(const C c, const grain_load load) {
+    requires bool(C::evaluated);
+    { C::needs } -> std::convertible_to<needs>;
+    { c.utilisation(load) } -> std::same_as<double>;
+};
+
+/// A criterion: one that is evaluated, or one that declares `evaluated = false` and has nothing else (criteria::none).
+template <class C>
+concept criterion = evaluated_criterion<C> ||(std::copyable<C>&& requires { requires !bool(C::evaluated); });
+
+/// What this value of a criterion reads: its `active_needs()` where it has one (the model or the rule is chosen at run
+/// time), else all that its type declares.
+template <evaluated_criterion C> constexpr needs needs_of(const C& c) {
+    if constexpr (requires {
+                      { c.active_needs() } -> std::same_as<needs>;
+                  })
+        return c.active_needs();
+    else
+        return C::needs;
+}
+
+} // namespace clast::criteria
