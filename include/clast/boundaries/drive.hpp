@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// How a part of the boundary is driven: held, moved at a speed, or servo-controlled to a stress.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <clast/core/errors.hpp>
+
+namespace clast::boundaries {
+
+/// Drive of one part of a boundary (both platens, or the lateral wall).
+struct drive {
+    enum class mode { hold, velocity, servo };
+
+    mode how = mode::hold;
+    double value = 0.0;     ///< velocity: inward speed of each facet (m/s; a platen moves at half the closing speed).
+                            ///< servo: target stress (Pa), compression positive, >= 0
+    double max_speed = 0.0; ///< servo: largest facet speed (m/s), > 0
+    double gain = 0.5;      ///< servo: share of the force error removed per step, in (0, 1)
+};
+
+/// Drives of the whole boundary.
+struct drives {
+    drive platens;
+    drive lateral;
+};
+
+/// Throws input_error where a drive makes no sense. `name` says whose drive it is.
+inline void check(const drive& d, const char* name) {
+    if (!std::isfinite(d.value))
+        throw input_error(std::string(name) + ".value", fmt::format("{}", d.value), "finite",
+                          "Set the stage's target.");
+    if (d.how != drive::mode::servo) return;
+    if (d.value < 0.0)
+        throw input_error(std::string(name) + ".value", fmt::format("{} Pa", d.value), ">= 0 (compression positive)",
+                          "A facet cannot pull on grains.");
+    if (!(d.max_speed > 0.0))
+        throw input_error(std::string(name) + ".max_speed", fmt::format("{} m/s", d.max_speed), "> 0",
+                          "Take 3 times the axial strain rate times the specimen radius, or more.");
+    if (!(d.gain > 0.0 && d.gain < 1.0))
+        throw input_error(std::string(name) + ".gain", fmt::format("{}", d.gain), "between 0 and 1",
+                          "0.5 is the default; from 1 on the servo is unstable.");
+}
+
+} // namespace clast::boundaries

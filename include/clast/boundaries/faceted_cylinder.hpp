@@ -1,0 +1,592 @@
+// SPDX-License-Identifier: MIT
+// A cylindrical membrane of flat facets between two platens (paper section 2.2): rings of tiles around the z axis.
+// Whether each tile, each ring or the whole wall moves on its own is a template parameter; see tiles.hpp,
+// ring_walls.hpp and solid_strips.hpp for the three kinds.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <clast/boundaries/drive.hpp>
+#include <clast/boundaries/platens.hpp>
+#include <clast/boundaries/polygon.hpp>
+#include <clast/boundaries/push_out.hpp>
+#include <clast/boundaries/touch.hpp>
+#include <clast/control/gap_control.hpp>
+#include <clast/control/servo.hpp>
+#include <clast/core/errors.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/measure/sample.hpp>
+
+namespace clast::boundaries {
+
+/// Size, resolution and stiffness of a cylindrical boundary around the z axis. All members in SI units.
+struct cylinder_settings {
+    double radius = 0.0;        ///< apothem of every tile at the start: the polygon circumscribes this circle (m), > 0
+    double bottom = 0.0;        ///< height of the bottom platen (m)
+    double top = 0.0;           ///< height of the top platen (m), > bottom
+    int rings = 36;             ///< V_sec of the paper (not used by solid strips), >= 1
+    int tiles_per_ring = 20;    ///< H_part of the paper, >= 6; below 18 the polygon exceeds the circle by over 1 %
+    double column_bottom = 0.0; ///< the column of tiles reaches from here ...
+    double column_top = 0.0;    ///< ... to here (m), at least over the specimen; equal: the specimen's height is taken
+    double platen_stiffness = 3.2e8;      ///< of the piece (N/m), paper Table 1
+    double tile_stiffness = 3.2e6;        ///< of the piece (N/m), paper Table 1
+    double smallest_radius = 0.0;         ///< of all pebbles (m), > 0; no vertical step may exceed twice this
+    double largest_step = 5e-3;           ///< largest step between neighbours of a ring (m), > 0
+    double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
+    double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
+    control::gap_rule gaps{};
+};
+
+/// What the membrane did so far. A tile-step is one tile (ring, wall) under servo control in one step.
+struct boundary_counters {
+    control::gap_events gaps;            ///< events of gap control
+    std::int64_t tile_steps = 0;         ///< all
+    std::int64_t capped = 0;             ///< loaded tiles at the speed limit: above 1 % of tile_steps, load more slowly
+    std::int64_t searching = 0;          ///< tiles without contact, moving in at the speed limit
+    std::int64_t hidden = 0;             ///< tiles behind their neighbours, following them
+    std::int64_t latched_pair_steps = 0; ///< pairs under gap control, summed over steps
+    std::int64_t latched_pairs = 0;      ///< pairs under gap control now
+};
+
+/// Smallest part of the lateral wall that moves on its own.
+enum class moving_unit { wall, ring, tile };
+
+/// Lateral wall of flat facets and two platens. Facets: 0 bottom platen, 1 top platen, 2 + ring * tiles_per_ring +
+/// tile, tile i facing the azimuth 2 pi i / tiles_per_ring. A facet's velocity is positive inward (dR/dt = -V).
+///
+/// Grains meet the wall as a solid of steps and valleys (push_out.hpp). The column of tiles stays in place while the
+/// platens pass along it: a ring acts over its part between the platens. An end ring of which less than
+/// max(0.1 tile height, smallest pebble radius) is left has no servo of its own: it closes up with the nearest active
+/// ring, which is controlled on the area and force of both, so that neither stress nor volume has a gap or a jump.
+template <moving_unit Unit> class faceted_cylinder {
+  public:
+    /// Throws input_error where a setting makes no sense.
+    explicit faceted_cylinder(const cylinder_settings& settings);
+
+    static constexpr moving_unit moves = Unit;
+    const cylinder_settings& settings() const { return set_; }
+    const boundary_counters& counters() const { return counters_; }
+
+    int facet_count() const { return first_lateral_facet + rings_ * around_; }
+    int ring_count() const { return rings_; }
+    int tiles_per_ring() const { return around_; }
+
+    // --- contact ---------------------------------------------------------------------------------------------------
+    /// Whether a facet could come within `reach` (pebble radius plus margin, m) of x. Conservative: never false if one
+    /// is.
+    bool near(const vec3& x, double reach) const {
+        if (platens_.near(x.z, reach)) return true;
+        const auto [from, to] = rings_within(x.z - reach, x.z + reach);
+        double least = ring_smallest_[index(from)];
+        for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
+        const double inner = std::max(0.0, least - reach);
+        return x.x * x.x + x.y * x.y > inner * inner || inner == 0.0;
+    }
+    /// Contacts of a sphere with the facets as they will be `ahead` seconds later at their present velocities.
+    touches touch(const vec3& x, double r, double ahead = 0.0) const {
+        touches out;
+        platens_.touch_sphere(x, r, ahead, out);
+        std::array<half_slab, max_slabs> slabs;
+        std::size_t n = 0;
+        double deepest = gather(x, r, 0.25 * r, ahead, slabs, n);
+        if (deepest <= 0.0) return out;
+        // the way out may be longer than the deepest overlap and then meets more facets
+        if (deepest > 0.125 * r) deepest = gather(x, r, 2.0 * deepest, ahead, slabs, n);
+        push_out(std::span<const half_slab>(slabs).first(n), x, r, out);
+        return out;
+    }
+    /// Whether a pebble is lost: its centre is beyond a platen, or beyond its ring of tiles, by more than its radius.
+    bool outside(const vec3& x, double r) const {
+        if (!(x.z > platens_.bottom - r && x.z < platens_.top + r)) return true; // also for NaN
+        const int k = rings_within(x.z, x.z).first;
+        const double limit = ring_smallest_[index(k)] + r;
+        const double rho2 = x.x * x.x + x.y * x.y;
+        if (rho2 <= limit * limit) return false;
+        for (int i = 0; i < around_; ++i)
+            if (!(x.x * dir_.cosine[index(i)] + x.y * dir_.sine[index(i)] <= apothem_[tile(k, i)] + r)) return true;
+        return false;
+    }
+
+    // --- facets ----------------------------------------------------------------------------------------------------
+    /// Normal stiffness of the piece (N/m), before the series rule with the pebble.
+    double stiffness(int facet) const {
+        return facet < first_lateral_facet ? set_.platen_stiffness : set_.tile_stiffness;
+    }
+    /// Velocity of a facet along its inward normal (m/s).
+    double velocity(int facet) const {
+        return facet < first_lateral_facet ? platens_.velocity[index(facet)] : velocity_[index(facet - 2)];
+    }
+    /// Inward unit normal of a facet.
+    vec3 inward(int facet) const {
+        if (facet < first_lateral_facet) return {0.0, 0.0, facet == bottom_platen ? 1.0 : -1.0};
+        const std::size_t i = index((facet - first_lateral_facet) % around_);
+        return {-dir_.cosine[i], -dir_.sine[i], 0.0};
+    }
+    /// Distance of a lateral facet's plane from the axis (m).
+    double apothem(int facet) const { return apothem_[index(facet - first_lateral_facet)]; }
+    /// Area of a facet that encloses the specimen (m^2): visible width times height between the platens; for a platen
+    /// the polygon of the ring it closes. d volume / dt = - sum of area times velocity.
+    double area(int facet) const {
+        if (facet == bottom_platen) return ring_area_[index(covered_first_)];
+        if (facet == top_platen) return ring_area_[index(covered_last_)];
+        const int ring = (facet - first_lateral_facet) / around_;
+        return visible_[index(facet - first_lateral_facet)].width() * covered_[index(ring)];
+    }
+    /// Whether a lateral facet's ring has a servo of its own (see the class).
+    bool active(int facet) const {
+        const int ring = (facet - first_lateral_facet) / around_;
+        return facet >= first_lateral_facet && ring >= active_first_ && ring <= active_last_;
+    }
+
+    // --- motion ----------------------------------------------------------------------------------------------------
+    /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap control, then the
+    /// facets that follow others. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
+    void control(std::span<const facet_load> loads, const drives& d, double dt);
+    /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
+    void advance(double dt) {
+        platens_.advance(dt);
+        for (std::size_t j = 0; j < apothem_.size(); ++j) apothem_[j] -= velocity_[j] * dt;
+        refresh();
+        check_state();
+    }
+
+    // --- measures --------------------------------------------------------------------------------------------------
+    double volume() const { return volume_; }             ///< enclosed (m^3)
+    double height() const { return platens_.height(); }   ///< between platens (m)
+    double section() const { return volume_ / height(); } ///< mean cross-section (m^2)
+    double bottom() const { return platens_.bottom; }     ///< height of the bottom platen (m)
+    double top() const { return platens_.top; }           ///< height of the top platen (m)
+    /// Largest facet speed (m/s).
+    double fastest() const {
+        return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), lateral_speed_});
+    }
+    /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
+    double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
+    /// Mean stress of the two platens: mean force / section (Pa).
+    double axial_stress(std::span<const facet_load> loads) const {
+        return 0.5 * (loads[bottom_platen].force + loads[top_platen].force) / section();
+    }
+    /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
+    double confining_error(std::span<const facet_load> loads, double sigma) const {
+        return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
+    }
+    /// Root mean square over the moving units (tiles, rings, wall) of (F - sigma A) / (sigma A); hidden tiles left out.
+    double confining_rms(std::span<const facet_load> loads, double sigma) const;
+    /// Rate of work done on the specimen by all facets (W): sum of force times inward velocity.
+    double power(std::span<const facet_load> loads) const {
+        double sum = 0.0;
+        for (int f = 0; f < facet_count(); ++f) sum += loads[index(f)].force * velocity(f);
+        return sum;
+    }
+    /// The platens (as squares around the wall) and all visible tiles.
+    std::vector<facet_view> view(std::span<const facet_load> loads) const;
+
+    /// Complete state, for checkpoints.
+    template <class A> void archive(A& a) {
+        a(set_, rings_, around_, tile_height_, half_width_, dir_, platens_, apothem_, velocity_, visible_, covered_,
+          ring_area_, ring_smallest_, volume_, lateral_area_, lateral_speed_, covered_first_, covered_last_,
+          active_first_, active_last_, latch_, chains_, backward_, counters_);
+    }
+
+  private:
+    static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
+    std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
+    double low_edge(int ring) const { return set_.column_bottom + ring * tile_height_; }
+    /// Units around the axis: each ring is one unit, or each tile.
+    int units_around() const { return Unit == moving_unit::tile ? around_ : 1; }
+
+    struct ring_range {
+        int first, last;
+    };
+    /// Rings between the platens that the heights [low, high] meet; the end ones reach on for ever.
+    ring_range rings_within(double low, double high) const {
+        const auto ring = [&](double z) {
+            const double k = std::floor((z - set_.column_bottom) / tile_height_);
+            return k <= covered_first_ ? covered_first_ : k >= covered_last_ ? covered_last_ : static_cast<int>(k);
+        };
+        return {ring(low), ring(high)};
+    }
+    /// Collects the tiles within r + margin of x; returns the deepest overlap with a single one (m).
+    double gather(const vec3& x, double r, double margin, double ahead, std::array<half_slab, max_slabs>& slabs,
+                  std::size_t& n) const;
+    void refresh();
+    void check_state() const;
+    void choose_active();
+    double lateral_force(std::span<const facet_load> loads) const {
+        double sum = 0.0;
+        for (int f = first_lateral_facet; f < facet_count(); ++f) sum += loads[index(f)].force;
+        return sum;
+    }
+    /// A tile that shows less than 5 % of its regular width is led by its neighbours: its own area says nothing.
+    bool hidden(int ring, int i) const {
+        return visible_[tile(ring, i)].width() < 0.05 * regular_width(around_, ring_smallest_[index(ring)]);
+    }
+
+    struct unit_load {
+        facet_load load;
+        double area = 0.0;
+    };
+    /// Sums load and area of what moves together, the ends that follow included, into one entry per unit of every ring.
+    void collect(std::span<const facet_load> loads, std::vector<unit_load>& units) const;
+    void servo_wall(const drive& d, double dt);
+    void control_gaps();
+    void follow(const drive& d, double dt);
+
+    cylinder_settings set_;
+    int rings_ = 1;
+    int around_ = 0;
+    double tile_height_ = 0.0;
+    double half_width_ = 0.0;
+    directions dir_;
+    platens platens_;
+    std::vector<double> apothem_;  // per tile, ring-major
+    std::vector<double> velocity_; // per tile, inward
+    std::vector<interval> visible_;
+    std::vector<double> covered_;       // per ring: height between the platens
+    std::vector<double> ring_area_;     // per ring: area of the polygon
+    std::vector<double> ring_smallest_; // per ring: least apothem
+    double volume_ = 0.0;
+    double lateral_area_ = 0.0;
+    double lateral_speed_ = 0.0;               // largest |velocity_|
+    int covered_first_ = 0, covered_last_ = 0; // rings that meet the specimen
+    int active_first_ = 0, active_last_ = -1;  // rings with a servo of their own
+    std::vector<std::uint8_t> latch_;          // columns first, then rings
+    std::vector<control::chain> chains_;
+    bool backward_ = false;
+    boundary_counters counters_;
+    std::vector<unit_load> units_; // work space of control(), kept to save the allocation
+};
+
+// --- implementation ------------------------------------------------------------------------------------------------
+
+template <moving_unit Unit>
+faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : set_(settings) {
+    const auto demand = [](bool good, const char* name, double value, const char* allowed, const char* way_out) {
+        if (!good)
+            throw input_error(std::string("cylinder_settings.") + name, fmt::format("{}", value), allowed, way_out);
+    };
+    const char* const in_si = "Give the specimen in metres and newtons.";
+    demand(set_.radius > 0.0 && std::isfinite(set_.radius), "radius", set_.radius, "> 0 m", in_si);
+    demand(set_.top > set_.bottom, "top", set_.top, "above bottom", in_si);
+    demand(set_.rings >= 1, "rings", set_.rings, ">= 1", "The paper uses 12, 24 and 36.");
+    demand(set_.tiles_per_ring >= 6, "tiles_per_ring", set_.tiles_per_ring, ">= 6", "The paper uses 20.");
+    demand(set_.smallest_radius > 0.0, "smallest_radius", set_.smallest_radius, "> 0 m", in_si);
+    demand(set_.largest_step > 0.0, "largest_step", set_.largest_step, "> 0 m", "5 mm is the default.");
+    demand(set_.platen_stiffness > 0.0, "platen_stiffness", set_.platen_stiffness, "> 0 N/m", in_si);
+    demand(set_.tile_stiffness > 0.0, "tile_stiffness", set_.tile_stiffness, "> 0 N/m", in_si);
+    demand(set_.contact_stiffness_floor > 0.0, "contact_stiffness_floor", set_.contact_stiffness_floor, "> 0 N/m",
+           "Take the stiffness of one pebble-tile contact.");
+    demand(set_.gaps.closing > 0.0 && set_.gaps.closing < 1.0, "gaps.closing", set_.gaps.closing, "in (0, 1)", "");
+    demand(set_.gaps.release > 0.0 && set_.gaps.release <= 1.0, "gaps.release", set_.gaps.release, "in (0, 1]", "");
+    if (set_.largest_radius == 0.0) set_.largest_radius = 1.6 * set_.radius;
+    demand(set_.largest_radius > set_.radius, "largest_radius", set_.largest_radius, "above radius",
+           "0 takes 1.6 radius.");
+    if (set_.column_bottom == set_.column_top) set_.column_bottom = set_.bottom, set_.column_top = set_.top;
+    demand(set_.column_bottom <= set_.bottom, "column_bottom", set_.column_bottom, "at most bottom", "");
+    demand(set_.column_top >= set_.top, "column_top", set_.column_top, "at least top", "");
+
+    rings_ = Unit == moving_unit::wall ? 1 : set_.rings;
+    around_ = set_.tiles_per_ring;
+    tile_height_ = (set_.column_top - set_.column_bottom) / rings_;
+    half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
+    dir_ = directions(around_);
+    platens_ = {set_.bottom, set_.top, {}};
+    const std::size_t tiles = index(rings_) * index(around_);
+    apothem_.assign(tiles, set_.radius);
+    velocity_.assign(tiles, 0.0);
+    visible_.resize(tiles);
+    covered_.resize(index(rings_));
+    ring_area_.resize(index(rings_));
+    ring_smallest_.resize(index(rings_));
+    if constexpr (Unit == moving_unit::tile) latch_.assign(2 * tiles, 0);
+    if constexpr (Unit == moving_unit::ring) latch_.assign(index(rings_), 0);
+    refresh();
+    check_state();
+}
+
+template <moving_unit Unit>
+double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, double ahead,
+                                      std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
+    const double reach = r + margin;
+    const auto [from, to] = rings_within(x.z - reach, x.z + reach);
+    double least = ring_smallest_[index(from)];
+    for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
+    least -= std::abs(ahead) * lateral_speed_;
+    n = 0;
+    double deepest = 0.0;
+    const double inner = least - reach;
+    if (inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner) return deepest;
+
+    std::array<double, max_slabs> overlap;
+    const auto look_at =
+        [&](int i) { // the tiles of column i; false where even the nearest of all rings is out of reach
+            const double nx = dir_.cosine[index(i)];
+            const double ny = dir_.sine[index(i)];
+            if (x.x * nx + x.y * ny + reach <= least) return false;
+            for (int k = from; k <= to; ++k) {
+                const std::size_t j = tile(k, i);
+                const half_slab h{nx,
+                                  ny,
+                                  apothem_[j] - velocity_[j] * ahead,
+                                  k == covered_first_ ? -std::numeric_limits<double>::infinity() : low_edge(k),
+                                  k == covered_last_ ? std::numeric_limits<double>::infinity() : low_edge(k + 1),
+                                  static_cast<std::int32_t>(j) + first_lateral_facet};
+                const double depth = r - separate(h, x).distance;
+                if (depth <= -margin) continue;
+                deepest = std::max(deepest, depth);
+                std::size_t at = n;
+                if (n == slabs.size()) { // a sphere that spans very many tiles: the shallowest makes room
+                    at = static_cast<std::size_t>(std::min_element(overlap.begin(), overlap.end()) - overlap.begin());
+                    if (overlap[at] >= depth) continue;
+                } else
+                    ++n;
+                slabs[at] = h;
+                overlap[at] = depth;
+            }
+            return true;
+        };
+    const int facing = dir_.towards(x.x, x.y);
+    bool more = look_at(facing);
+    for (int m = 1; 2 * m < around_ && more; ++m) {
+        more = look_at(dir_.wrap(facing + m));
+        more = look_at(dir_.wrap(facing - m)) || more;
+    }
+    return deepest;
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::refresh() {
+    covered_first_ = rings_;
+    covered_last_ = -1;
+    volume_ = lateral_area_ = 0.0;
+    for (int k = 0; k < rings_; ++k) {
+        const auto ring = std::span<const double>(apothem_).subspan(tile(k, 0), index(around_));
+        const double smallest = *std::min_element(ring.begin(), ring.end());
+        double around = 0.0;
+        double area = 0.0;
+        for (int i = 0; i < around_; ++i) {
+            const interval seen = visible(dir_, ring, i, half_width_, smallest);
+            visible_[tile(k, i)] = seen;
+            around += seen.width();
+            area += 0.5 * seen.width() * ring[index(i)];
+        }
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        const double height =
+            platens_.covered(k == 0 ? -infinite : low_edge(k), k + 1 == rings_ ? infinite : low_edge(k + 1));
+        if (height > 0.0) {
+            covered_first_ = std::min(covered_first_, k);
+            covered_last_ = k;
+        }
+        ring_smallest_[index(k)] = smallest;
+        ring_area_[index(k)] = area;
+        covered_[index(k)] = height;
+        volume_ += area * height;
+        lateral_area_ += around * height;
+    }
+    if (covered_last_ < 0) covered_first_ = covered_last_ = 0; // platens met: check_state() stops the run
+    choose_active();
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::choose_active() {
+    const double least = std::max(0.1 * tile_height_, set_.smallest_radius);
+    int first = covered_first_;
+    int last = covered_last_;
+    while (first < last && covered_[index(first)] < least) ++first;
+    while (last > first && covered_[index(last)] < least) --last;
+    if (first == active_first_ && last == active_last_) return;
+    active_first_ = first;
+    active_last_ = last;
+    chains_.clear();
+    if constexpr (Unit == moving_unit::wall) return;
+    const int count = last - first + 1;
+    const int columns = units_around();
+    const double limit = 2.0 * set_.smallest_radius;
+    for (int i = 0; i < columns; ++i)
+        chains_.push_back({first * around_ + i, around_, count, false, i * rings_ + first, limit});
+    const int rings_from = columns * rings_;
+    if constexpr (Unit == moving_unit::tile)
+        for (int k = first; k <= last; ++k)
+            chains_.push_back({k * around_, 1, around_, true, rings_from + k * around_, set_.largest_step});
+    // a latch must not outlive its pair's time under control
+    std::vector<std::uint8_t> kept(latch_.size(), 0);
+    for (const control::chain& c : chains_)
+        for (int j = 0; j < c.pairs(); ++j) kept[index(c.first_latch + j)] = latch_[index(c.first_latch + j)];
+    latch_ = kept;
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
+    const auto stop = [this](std::string what, std::string where) {
+        throw run_error({std::move(what), std::move(where), fmt::format("specimen height {:.6g} m", height()),
+                         "the load moves the boundary faster than grains can resist, or no grain is left to resist",
+                         "load more slowly, lower the speed limit of the servo, or use more rings"});
+    };
+    if (!(height() >= 2.0 * set_.smallest_radius)) stop("The platens met", "platens");
+    for (std::size_t j = 0; j < apothem_.size(); ++j)
+        if (!(apothem_[j] >= 2.0 * set_.smallest_radius && apothem_[j] <= set_.largest_radius))
+            stop("The membrane is torn",
+                 fmt::format("tile {} of ring {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m)",
+                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j],
+                             2.0 * set_.smallest_radius, set_.largest_radius));
+}
+
+template <moving_unit Unit>
+void faceted_cylinder<Unit>::collect(std::span<const facet_load> loads, std::vector<unit_load>& units) const {
+    const int per_ring = units_around();
+    units.assign(index(rings_) * index(per_ring), {});
+    for (int k = 0; k < rings_; ++k) {
+        const int owner = std::clamp(k, active_first_, active_last_);
+        for (int i = 0; i < around_; ++i) {
+            const int facet = first_lateral_facet + k * around_ + i;
+            unit_load& u = units[index(owner * per_ring + (per_ring == 1 ? 0 : i))];
+            const facet_load& l = loads[index(facet)];
+            u.load.force += l.force;
+            u.load.stiffness += l.stiffness;
+            u.load.contacts += l.contacts;
+            u.area += area(facet);
+        }
+    }
+}
+
+template <moving_unit Unit>
+void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const drives& d, double dt) {
+    check(d.platens, "drives.platens");
+    check(d.lateral, "drives.lateral");
+    using mode = drive::mode;
+    for (int f = 0; f < 2; ++f) {
+        double& v = platens_.velocity[index(f)];
+        if (d.platens.how == mode::servo)
+            v = control::inward_velocity({d.platens.value * section(), loads[index(f)].force, loads[index(f)].stiffness,
+                                          set_.contact_stiffness_floor, dt, d.platens.gain, d.platens.max_speed});
+        else
+            v = d.platens.how == mode::velocity ? d.platens.value : 0.0;
+    }
+    if (d.lateral.how == mode::servo) {
+        collect(loads, units_);
+        servo_wall(d.lateral, dt);
+        control_gaps();
+    } else {
+        std::fill(velocity_.begin(), velocity_.end(), d.lateral.how == mode::velocity ? d.lateral.value : 0.0);
+    }
+    follow(d.lateral, dt);
+    lateral_speed_ = 0.0;
+    for (const double v : velocity_) lateral_speed_ = std::max(lateral_speed_, std::abs(v));
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt) {
+    const int per_ring = units_around();
+    for (int k = active_first_; k <= active_last_; ++k) {
+        for (int i = 0; i < per_ring; ++i) {
+            const unit_load& u = units_[index(k * per_ring + i)];
+            const double v = control::inward_velocity({d.value * u.area, u.load.force, u.load.stiffness,
+                                                       set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
+            const int tiles = per_ring == 1 ? around_ : 1;
+            for (int t = i; t < i + tiles; ++t) velocity_[tile(k, t)] = v;
+            ++counters_.tile_steps;
+            if (u.load.stiffness <= 0.0)
+                ++counters_.searching;
+            else if (std::abs(v) >= d.max_speed)
+                ++counters_.capped;
+        }
+        if constexpr (Unit == moving_unit::tile)
+            for (int i = 0; i < around_; ++i) {
+                if (!hidden(k, i)) continue;
+                int left = 1;
+                int right = 1;
+                while (left < around_ && hidden(k, dir_.wrap(i - left))) ++left;
+                while (right < around_ && hidden(k, dir_.wrap(i + right))) ++right;
+                velocity_[tile(k, i)] =
+                    0.5 * (velocity_[tile(k, dir_.wrap(i - left))] + velocity_[tile(k, dir_.wrap(i + right))]);
+                ++counters_.hidden;
+            }
+    }
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::control_gaps() {
+    counters_.latched_pairs = 0;
+    for (const control::chain& c : chains_)
+        counters_.latched_pairs += control::latch_gaps(c, set_.gaps, apothem_, latch_);
+    counters_.latched_pair_steps += counters_.latched_pairs;
+    backward_ = !backward_;
+    if (counters_.latched_pairs == 0) return;
+    control::control_gaps(chains_, set_.gaps, apothem_, velocity_, latch_, backward_, counters_.gaps);
+    if constexpr (Unit == moving_unit::ring) // the chain runs along the first tiles of the rings
+        for (int k = active_first_; k <= active_last_; ++k)
+            for (int i = 1; i < around_; ++i) velocity_[tile(k, i)] = velocity_[tile(k, 0)];
+}
+
+template <moving_unit Unit> void faceted_cylinder<Unit>::follow(const drive& d, double dt) {
+    for (int k = 0; k < rings_; ++k) {
+        const int leader = std::clamp(k, active_first_, active_last_);
+        if (leader == k) continue;
+        for (int i = 0; i < around_; ++i) {
+            const double apart = apothem_[tile(k, i)] - apothem_[tile(leader, i)];
+            velocity_[tile(k, i)] = velocity_[tile(leader, i)] + std::clamp(apart / dt, -d.max_speed, d.max_speed);
+        }
+    }
+}
+
+template <moving_unit Unit>
+double faceted_cylinder<Unit>::confining_rms(std::span<const facet_load> loads, double sigma) const {
+    std::vector<unit_load> units;
+    collect(loads, units);
+    const int per_ring = units_around();
+    double sum = 0.0;
+    int count = 0;
+    for (int k = active_first_; k <= active_last_; ++k)
+        for (int i = 0; i < per_ring; ++i) {
+            if (Unit == moving_unit::tile && hidden(k, i)) continue;
+            const unit_load& u = units[index(k * per_ring + i)];
+            const double error = u.load.force / (sigma * u.area) - 1.0;
+            sum += error * error;
+            ++count;
+        }
+    return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+template <moving_unit Unit>
+std::vector<facet_view> faceted_cylinder<Unit>::view(std::span<const facet_load> loads) const {
+    std::vector<facet_view> out;
+    double side = 0.0;
+    for (const double r : apothem_) side = std::max(side, 1.05 * r);
+    for (int f = 0; f < first_lateral_facet; ++f) {
+        const double z = f == bottom_platen ? platens_.bottom : platens_.top;
+        out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
+                       loads[index(f)].force / section(),
+                       area(f),
+                       -1,
+                       -1});
+    }
+    for (int k = 0; k < rings_; ++k) {
+        if (covered_[index(k)] <= 0.0) continue;
+        const double low = k == covered_first_ ? platens_.bottom : low_edge(k);
+        const double high = k == covered_last_ ? platens_.top : low_edge(k + 1);
+        for (int i = 0; i < around_; ++i) {
+            const std::size_t j = tile(k, i);
+            const interval s = visible_[j];
+            if (s.width() <= 0.0) continue;
+            const vec3 n{dir_.cosine[index(i)], dir_.sine[index(i)], 0.0};
+            const vec3 t{-n.y, n.x, 0.0};
+            const vec3 up{0.0, 0.0, 1.0};
+            const vec3 left = apothem_[j] * n + s.low * t;
+            const vec3 right = apothem_[j] * n + s.high * t;
+            const int facet = static_cast<int>(j) + first_lateral_facet;
+            const double a = area(facet);
+            out.push_back({{left + low * up, right + low * up, right + high * up, left + high * up},
+                           loads[index(facet)].force / a,
+                           a,
+                           k,
+                           i});
+        }
+    }
+    return out;
+}
+
+} // namespace clast::boundaries

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Contacts of one pebble with the facets of a boundary, and the load that a facet collects from them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <clast/core/vector.hpp>
+
+namespace clast::boundaries {
+
+inline constexpr std::int32_t bottom_platen = 0;
+inline constexpr std::int32_t top_platen = 1;
+inline constexpr std::int32_t first_lateral_facet = 2; ///< then ring * tiles_per_ring + tile, rings from the bottom
+
+/// One contact of a pebble with a facet. The force on the pebble is k * depth * normal.
+struct touch {
+    std::int32_t facet;
+    vec3 normal;        ///< unit vector into the specimen: direction of the force on the pebble
+    double depth;       ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
+    double along = 1.0; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
+};
+
+/// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
+/// platens.
+struct touches {
+    std::array<touch, 5> at;
+    int size = 0;
+
+    constexpr void add(const touch& t) { at[static_cast<std::size_t>(size++)] = t; }
+    constexpr const touch* begin() const { return at.data(); }
+    constexpr const touch* end() const { return at.data() + size; }
+};
+
+/// Way out of the lateral wall (m): sum of depth * normal over lateral facets. Lateral force on the pebble = k times
+/// this, its elastic energy = k |.|^2 / 2 (not the sum over touches, whose normals are not orthogonal).
+constexpr vec3 lateral_push(const touches& t) {
+    vec3 u;
+    for (const touch& one : t)
+        if (one.facet >= first_lateral_facet) u += one.depth * one.normal;
+    return u;
+}
+
+/// Elastic energy (J) of a pebble's boundary contacts with contact stiffness k_platen and k_lateral (N/m).
+constexpr double elastic_energy(const touches& t, double k_platen, double k_lateral) {
+    double energy = 0.5 * k_lateral * norm2(lateral_push(t));
+    for (const touch& one : t)
+        if (one.facet < first_lateral_facet) energy += 0.5 * k_platen * one.depth * one.depth;
+    return energy;
+}
+
+/// What the grains do to one facet in one step.
+struct facet_load {
+    double force = 0.0;     ///< component, along the inward normal, of what the facet exerts on grains (N), >= 0
+    double stiffness = 0.0; ///< d force / d inward displacement at fixed grains, summed over contacts (N/m)
+    std::int32_t contacts = 0;
+
+    /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
+    constexpr void add(const touch& t, double force_on_pebble, double k) {
+        force += force_on_pebble * t.along;
+        stiffness += k * t.along * t.along;
+        ++contacts;
+    }
+};
+
+} // namespace clast::boundaries
