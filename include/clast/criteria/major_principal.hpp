@@ -15,7 +15,7 @@ struct major_principal {
     crushing_strength strength;
 
     double utilisation(const grain_load& load) const {
-        return detail::stress_utilisation(detail::major(detail::invariants(load.stress)), 1.0, strength, load);
+        return detail::stress_utilisation(largest_principal(load.stress), 1.0, strength, load);
     }
 };
 

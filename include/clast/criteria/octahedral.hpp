@@ -19,8 +19,8 @@ struct octahedral {
     crushing_strength strength;
 
     double utilisation(const grain_load& load) const {
-        const detail::stress_invariants i = detail::invariants(load.stress);
-        return detail::stress_utilisation(std::sqrt(2.0 / 3.0 * i.j2), std::numbers::sqrt2 / 3.0, strength, load);
+        const double tau = std::sqrt(2.0 / 3.0 * invariants(load.stress).j2);
+        return detail::stress_utilisation(tau, std::numbers::sqrt2 / 3.0, strength, load);
     }
 };
 
