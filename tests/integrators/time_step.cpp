@@ -224,6 +224,22 @@ TEST_CASE("rotational stiffness: lever arms, twist and bending of bonds, in the 
     CHECK(turned_body.time_step(1e9, {0.45, 100, 100}, 1.0) == Approx(0.1).epsilon(1e-12));
 }
 
+TEST_CASE("the step does not change when body and contacts are turned together") {
+    const vec3 normal = unit(vec3{1, 2, 2});
+    const vec3 arm{0.3, -0.1, 0.2};
+    const vec3 inertia{0.02, 0.3, 1.0};
+    stiffness_sum straight;
+    straight.add(normal, 5.0, 2.0, arm);
+    random_stream random{8, 0};
+    for (int i = 0; i < 10; ++i) {
+        const quaternion q = orientation(random);
+        stiffness_sum turned_body(matrix(q));
+        turned_body.add(rotate(q, normal), 5.0, 2.0, rotate(q, arm));
+        CHECK(turned_body.time_step(1.0, inertia) == Approx(straight.time_step(1.0, inertia)).epsilon(1e-12));
+        CHECK(turned_body.critical_step(1.0, inertia) == Approx(straight.critical_step(1.0, inertia)).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("leapfrog of an elastic pair is stable at 0.99 of its limit and diverges at 1.01") {
     const auto after = [](double dt, int steps) {
         double a = 0.0, b = 1e-9, va = 0.0, vb = 0.0;
