@@ -1,0 +1,598 @@
+// SPDX-License-Identifier: MIT
+// Pictures of a finished test, drawn by gnuplot from the result files. The scripts and their data stay in the folder,
+// so that a user can change and redraw them: `cd plots && gnuplot stress.gp`.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <clast/core/vector.hpp>
+#include <clast/io/csv.hpp>
+#include <clast/io/detail/atomic_file.hpp>
+#include <clast/io/detail/plot_scripts.hpp>
+#include <clast/io/detail/render.hpp>
+#include <clast/measure/sample.hpp>
+
+namespace clast {
+
+/// The specimen at one instant, as the pictures need it. Lengths in m; the axis of the specimen is x = y = 0.
+struct specimen_view {
+    double axial_strain = 0.0;
+    std::vector<pebble_view> pebbles;
+    std::vector<facet_view> facets;
+};
+
+/// What is to be drawn.
+struct plot_request {
+    std::filesystem::path series;                       ///< series.csv
+    std::filesystem::path events;                       ///< events.csv
+    specimen_view start;                                ///< at the start of shear (empty: not drawn)
+    specimen_view end;                                  ///< at the end of shear (empty: not drawn)
+    std::vector<std::string> stages{"shear", "unload"}; ///< stages that are drawn against axial strain
+};
+
+/// What was drawn, and what could not be.
+struct plot_report {
+    std::vector<std::filesystem::path> pictures; ///< .svg and .png
+    std::vector<std::string> problems;           ///< sentences for the user; empty when all went well
+};
+
+/// Counts of events by azimuth about the specimen axis (paper Figs. 9 and 10, read as positions: physics of the rosette
+/// is open in the paper), in equal sectors from 0 anticlockwise.
+struct rosette {
+    std::vector<std::int64_t> tension;
+    std::vector<std::int64_t> shear;
+
+    /// Events in all sectors.
+    [[nodiscard]] std::int64_t total() const {
+        std::int64_t n = 0;
+        for (std::size_t i = 0; i < tension.size(); ++i) n += tension[i] + shear[i];
+        return n;
+    }
+    /// Coefficient of variation of the sector counts beyond that of chance (Poisson): 0 for an even rosette.
+    [[nodiscard]] double unevenness() const {
+        const double sectors = static_cast<double>(tension.size());
+        const double mean = static_cast<double>(total()) / sectors;
+        if (mean <= 0.0) return 0.0;
+        double square = 0.0;
+        for (std::size_t i = 0; i < tension.size(); ++i)
+            square += std::pow(static_cast<double>(tension[i] + shear[i]) - mean, 2) / sectors;
+        return std::sqrt(square) / mean - 1.0 / std::sqrt(mean);
+    }
+};
+
+/// Sorts events into `sectors` of azimuth; only those at axial strain other than 0 (that is, in shear) if there are
+/// any.
+inline rosette make_rosette(std::span<const fracture_event> events, int sectors = 36) {
+    const bool sheared = std::any_of(events.begin(), events.end(), [](const auto& e) { return e.axial_strain != 0.0; });
+    rosette r{std::vector<std::int64_t>(static_cast<std::size_t>(sectors)),
+              std::vector<std::int64_t>(static_cast<std::size_t>(sectors))};
+    for (const fracture_event& e : events) {
+        if (sheared && e.axial_strain == 0.0) continue;
+        double turn = std::atan2(e.position.y, e.position.x) / (2.0 * std::numbers::pi);
+        if (turn < 0.0) turn += 1.0;
+        const auto i = static_cast<std::size_t>(std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1));
+        ++(e.mode == break_mode::tension ? r.tension : r.shear)[i];
+    }
+    return r;
+}
+
+/// Radius of the membrane in one ring (m).
+struct ring_profile {
+    double bottom = 0.0, top = 0.0;                   ///< heights of its edges
+    double smallest = 0.0, mean = 0.0, largest = 0.0; ///< distance of the facet centres from the axis
+    double left = 0.0, right = 0.0;                   ///< smallest and largest x: what a viewer along y sees
+};
+
+/// The membrane from the bottom to the top, from its facets (platens are left out).
+inline std::vector<ring_profile> membrane_profile(std::span<const facet_view> facets) {
+    constexpr double huge = std::numeric_limits<double>::max();
+    std::map<std::int32_t, std::pair<ring_profile, double>> rings;
+    for (const facet_view& f : facets) {
+        if (f.ring < 0) continue;
+        auto [place, fresh] = rings.try_emplace(f.ring, ring_profile{huge, -huge, huge, 0.0, 0.0, huge, -huge}, 0.0);
+        ring_profile& r = place->second.first;
+        vec3 centre;
+        for (const vec3& c : f.corner) {
+            centre += 0.25 * c;
+            r.bottom = std::min(r.bottom, c.z), r.top = std::max(r.top, c.z);
+            r.left = std::min(r.left, c.x), r.right = std::max(r.right, c.x);
+        }
+        const double radius = std::hypot(centre.x, centre.y);
+        r.smallest = std::min(r.smallest, radius), r.largest = std::max(r.largest, radius);
+        r.mean += radius;
+        place->second.second += 1.0;
+    }
+    std::vector<ring_profile> profile;
+    for (auto& [ring, entry] : rings) {
+        entry.first.mean /= entry.second;
+        profile.push_back(entry.first);
+    }
+    return profile;
+}
+
+namespace detail {
+
+/// Replaces every @name@ in a script.
+inline std::string fill_in(std::string text, std::initializer_list<std::pair<std::string_view, std::string>> values) {
+    for (const auto& [name, value] : values) {
+        const std::string mark = "@" + std::string(name) + "@";
+        for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
+            text.replace(at, mark.size(), value);
+    }
+    return text;
+}
+
+/// Runs `gnuplot script` in a folder, messages into gnuplot.log there. Returns its exit code, 127 where it is missing.
+inline int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+    const pid_t child = ::fork();
+    if (child < 0) return 126;
+    if (child == 0) {
+        if (::chdir(folder.c_str()) != 0) ::_exit(126);
+        const int log = ::open("gnuplot.log", O_WRONLY | O_CREAT | O_APPEND, 0644);
+        const int nothing = ::open("/dev/null", O_RDONLY);
+        if (log >= 0) ::dup2(log, 1), ::dup2(log, 2);
+        if (nothing >= 0) ::dup2(nothing, 0);
+        ::execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0)
+        if (errno != EINTR) return 126;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 126;
+}
+
+inline std::string hex(const rgb& c) {
+    return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]));
+}
+
+/// Colours of the cross-section (paper Fig. 16: unbroken red, replaced green; loose fragments in a lighter green).
+constexpr rgb section_colour(pebble_state s) {
+    switch (s) {
+    case pebble_state::clump:
+        return {187, 62, 52};
+    case pebble_state::bonded:
+        return {58, 140, 84};
+    default:
+        return {164, 207, 128};
+    }
+}
+
+/// Writes a figure's script and data and draws it; collects what went wrong.
+class plot_folder {
+  public:
+    plot_folder(std::filesystem::path folder, plot_report& report) : folder_(std::move(folder)), report_(report) {
+        std::filesystem::create_directories(folder_ / "data");
+        std::error_code none;
+        std::filesystem::remove(folder_ / "gnuplot.log", none);
+        replace_file(folder_ / "style.gp", {style_script});
+    }
+
+    void data(const std::string& name, const std::string& content) const {
+        replace_file(folder_ / "data" / name, {content});
+    }
+
+    void draw(const std::string& figure, const std::string& script) {
+        replace_file(folder_ / (figure + ".gp"), {script});
+        if (missing_) return;
+        const int code = run_gnuplot(folder_, figure + ".gp");
+        if (code == 127) {
+            missing_ = true;
+            report_.problems.push_back(
+                "gnuplot is not installed, so no pictures were drawn (Debian: apt install gnuplot-nox). "
+                "Then redraw with: cd '" +
+                folder_.string() + "' && for f in *.gp; do gnuplot $f; done");
+            return;
+        }
+        for (const char* kind : {".svg", ".png"}) {
+            std::error_code error;
+            const auto picture = folder_ / (figure + kind);
+            if (code == 0 && std::filesystem::file_size(picture, error) > 0 && !error)
+                report_.pictures.push_back(picture);
+            else if (std::string(kind) == ".svg")
+                report_.problems.push_back(
+                    fmt::format("gnuplot could not draw '{}' (exit code {}); its message is in '{}'", figure, code,
+                                (folder_ / "gnuplot.log").string()));
+        }
+    }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+    plot_report& report_;
+    bool missing_ = false;
+};
+
+/// A closed polygon "x,z" per line in cm that follows both edges of each ring, so that a ring shows as the step it is.
+inline std::string step_polygon(const std::vector<ring_profile>& rings, double ring_profile::*left,
+                                double ring_profile::*right) {
+    std::string text;
+    const auto point = [&text](double x, double z) {
+        fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g}\n", 100 * x, 100 * z);
+    };
+    for (const ring_profile& r : rings) point(r.*left, r.bottom), point(r.*left, r.top);
+    for (auto r = rings.rbegin(); r != rings.rend(); ++r) point((*r).*right, r->top), point((*r).*right, r->bottom);
+    if (!rings.empty()) point(rings.front().*left, rings.front().bottom);
+    return text;
+}
+inline std::string step_line(const std::vector<ring_profile>& rings, double ring_profile::*x) {
+    std::string text;
+    for (const ring_profile& r : rings)
+        fmt::format_to(std::back_inserter(text), "{0:.5g},{1:.5g}\n{0:.5g},{2:.5g}\n", 100 * r.*x, 100 * r.bottom,
+                       100 * r.top);
+    return text;
+}
+
+inline void draw_membrane(plot_folder& plots, const plot_request& request) {
+    std::string bands, outlines;
+    double r0 = std::numeric_limits<double>::max(), r1 = 0.0, z0 = r0, z1 = -r0, half = 0.0;
+    const auto add = [&](const specimen_view& view, const std::string& name, const char* colour) {
+        const auto rings = membrane_profile(view.facets);
+        if (rings.empty()) return;
+        for (const ring_profile& r : rings) {
+            r0 = std::min(r0, r.smallest), r1 = std::max(r1, r.largest);
+            z0 = std::min(z0, r.bottom), z1 = std::max(z1, r.top);
+            half = std::max({half, -r.left, r.right});
+        }
+        plots.data("membrane_band_" + name + ".csv",
+                   step_polygon(rings, &ring_profile::smallest, &ring_profile::largest));
+        plots.data("membrane_mean_" + name + ".csv", step_line(rings, &ring_profile::mean));
+        plots.data("membrane_outline_" + name + ".csv", step_polygon(rings, &ring_profile::left, &ring_profile::right));
+        const std::string title = fmt::format("ε_a = {:.1f} %", 100.0 * view.axial_strain);
+        bands += fmt::format(
+            "{0}\"data/membrane_band_{1}.csv\" using 1:2 with filledcurves closed linecolor rgb {2} notitle, "
+            "\"data/membrane_mean_{1}.csv\" using 1:2 with lines linewidth 1.8 linecolor rgb {2} title \"{3}\"",
+            bands.empty() ? "" : ", ", name, colour, title);
+        outlines += fmt::format(
+            "{0}\"data/membrane_outline_{1}.csv\" using 1:2 with filledcurves closed fillstyle solid 0.10 noborder "
+            "linecolor rgb {2} notitle, "
+            "\"data/membrane_outline_{1}.csv\" using 1:2 with lines linewidth 1.5 linecolor rgb {2} notitle",
+            outlines.empty() ? "" : ", ", name, colour);
+    };
+    add(request.start, "start", "grey");
+    add(request.end, "end", "red");
+    if (bands.empty()) return;
+    const double margin = std::max(0.25 * (r1 - r0), 0.02 * r1);
+    const double space = 0.03 * (z1 - z0);
+    const auto cm = [](double x) { return fmt::format("{:.4g}", 100.0 * x); };
+    plots.draw("membrane", fill_in(std::string(membrane_script), {{"BANDS", bands},
+                                                                  {"OUTLINES", outlines},
+                                                                  {"R0", cm(r0 - margin)},
+                                                                  {"R1", cm(r1 + margin)},
+                                                                  {"Z0", cm(z0 - space)},
+                                                                  {"Z1", cm(z1 + space)},
+                                                                  {"HALF", cm(1.1 * half)}}));
+}
+
+inline void draw_rosette(plot_folder& plots, const std::vector<fracture_event>& events) {
+    const rosette r = make_rosette(events);
+    const std::size_t sectors = r.tension.size();
+    std::int64_t most = 0;
+    for (std::size_t i = 0; i < sectors; ++i) most = std::max(most, r.tension[i] + r.shear[i]);
+    if (most == 0) return;
+    // round circles: 1, 2 or 5 times a power of ten, about three of them
+    double step = std::pow(10.0, std::floor(std::log10(static_cast<double>(most) / 3.0)));
+    for (const double factor : {2.0, 2.5, 2.0})
+        if (static_cast<double>(most) / step > 4.0) step *= factor;
+    step = std::max(step, 1.0);
+    const double reach = step * std::ceil(static_cast<double>(most) / step);
+
+    const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors);
+    const auto wedge = [&](std::size_t i, double inner, double outer) {
+        std::string text;
+        for (int k = 0; k <= 8; ++k) {
+            const double a = width * (static_cast<double>(i) + k / 8.0);
+            fmt::format_to(std::back_inserter(text), "{:.6g},{:.6g}\n", outer * std::cos(a), outer * std::sin(a));
+        }
+        for (int k = 8; k >= 0; --k) {
+            const double a = width * (static_cast<double>(i) + k / 8.0);
+            fmt::format_to(std::back_inserter(text), "{:.6g},{:.6g}\n", inner * std::cos(a), inner * std::sin(a));
+        }
+        return text + "\n";
+    };
+    std::string tension, shear, rings, labels;
+    for (std::size_t i = 0; i < sectors; ++i) {
+        const auto t = static_cast<double>(r.tension[i]), s = static_cast<double>(r.shear[i]);
+        if (t > 0) tension += wedge(i, 0.0, t);
+        if (s > 0) shear += wedge(i, t, t + s);
+    }
+    for (double c = step; c <= reach * 1.0001; c += step) {
+        for (int k = 0; k <= 180; ++k)
+            fmt::format_to(std::back_inserter(rings), "{:.6g},{:.6g}\n", c * std::cos(k * std::numbers::pi / 90),
+                           c * std::sin(k * std::numbers::pi / 90));
+        rings += "\n";
+        labels +=
+            fmt::format("set label \"{0:g}\" at {1:.6g},{2:.6g} center front textcolor rgb grey font \",10\"\n    ", c,
+                        c * std::cos(width * 1.5), c * std::sin(width * 1.5) + 0.025 * reach);
+    }
+    for (int k = 0; k < 12; ++k) {
+        const double a = k * std::numbers::pi / 6;
+        fmt::format_to(std::back_inserter(rings), "0,0\n{:.6g},{:.6g}\n\n", reach * std::cos(a), reach * std::sin(a));
+        labels += fmt::format("set label \"{}°\" at {:.6g},{:.6g} center textcolor rgb dark font \",11\"\n    ", 30 * k,
+                              1.08 * reach * std::cos(a), 1.08 * reach * std::sin(a));
+    }
+    if (shear.empty()) shear = "NaN,NaN\n";
+    if (tension.empty()) tension = "NaN,NaN\n";
+    plots.data("rosette_tension.csv", tension);
+    plots.data("rosette_shear.csv", shear);
+    plots.data("rosette_rings.csv", rings);
+    plots.draw("rosette",
+               fill_in(std::string(rosette_script), {{"REACH", fmt::format("{:.6g}", 1.15 * reach)},
+                                                     {"CIRCLES", labels},
+                                                     {"CAPTION", fmt::format("n = {}; unevenness beyond chance {:.2f}",
+                                                                             r.total(), r.unevenness())}}));
+}
+
+/// The rectangle that holds all views, with a margin (m).
+inline std::optional<window> common_window(std::initializer_list<const specimen_view*> views) {
+    constexpr double huge = std::numeric_limits<double>::max();
+    window w{huge, -huge, huge, -huge};
+    const auto include = [&w](const vec3& p, double r) {
+        w.x0 = std::min({w.x0, p.x - r, p.y - r}), w.x1 = std::max({w.x1, p.x + r, p.y + r});
+        w.z0 = std::min(w.z0, p.z - r), w.z1 = std::max(w.z1, p.z + r);
+    };
+    for (const specimen_view* view : views) {
+        for (const pebble_view& p : view->pebbles)
+            if (is_finite(p.position)) include(p.position, p.radius);
+        for (const facet_view& f : view->facets)
+            if (f.ring >= 0) // platens reach far beyond the specimen
+                for (const vec3& c : f.corner) include(c, 0.0);
+    }
+    if (w.x1 <= w.x0 || w.z1 <= w.z0) return std::nullopt;
+    const double half = std::max(-w.x0, w.x1) * 1.04;
+    const double space = 0.02 * (w.z1 - w.z0);
+    return window{-half, half, w.z0 - space, w.z1 + space};
+}
+
+/// The row at the bottom of a page (in points) that names the colours.
+inline std::string legend(double page_w, double page_h, rgb (*colour)(pebble_state)) {
+    // a key of gnuplot breaks its row where it guesses that text is too wide, so the entries are placed by hand
+    constexpr double mark = 16.0, letter = 6.4, gap = 22.0;
+    constexpr std::pair<pebble_state, std::string_view> entries[] = {
+        {pebble_state::clump, "unbroken"},
+        {pebble_state::bonded, "replaced, all bonds intact"},
+        {pebble_state::fragment, "broken"}};
+    double width = -gap;
+    for (const auto& [state, text] : entries) width += mark + letter * static_cast<double>(text.size()) + gap;
+    double x = 0.5 * (page_w - width) + 0.5 * mark;
+    std::string script =
+        "    unset label; unset arrow\n    set lmargin at screen 0; set rmargin at screen 1; set bmargin "
+        "at screen 0; set tmargin at screen 0.04\n    set xrange [0:1]; set yrange [0:1]\n";
+    for (const auto& [state, text] : entries) {
+        fmt::format_to(
+            std::back_inserter(script),
+            "    set label \"{}\" at screen {:.5f}, screen {:.5f} left offset character 0.4, 0 point pointtype 7 "
+            "pointsize 1.2 linecolor rgb \"{}\" textcolor rgb dark font \",12\"\n",
+            text, x / page_w, 20.0 / page_h, hex(colour(state)));
+        x += mark + letter * static_cast<double>(text.size()) + gap;
+    }
+    return script + "    plot NaN notitle";
+}
+
+/// Puts the next plot into a part of the page (0 to 1): its ranges in cm, a title above and a scale bar below.
+inline std::string place(double left, double bottom, double width, double height, const window& w,
+                         const std::string& title) {
+    double bar = 1.0; // a round length (cm), about a quarter of the width
+    for (const double candidate : {2.0, 5.0, 10.0, 20.0, 50.0})
+        if (candidate <= 100.0 * (w.x1 - w.x0) / 3.0) bar = candidate;
+    return fmt::format("    unset label; unset arrow\n"
+                       "    set lmargin at screen {:.5f}; set rmargin at screen {:.5f}\n"
+                       "    set bmargin at screen {:.5f}; set tmargin at screen {:.5f}\n"
+                       "    set xrange [{:.6g}:{:.6g}]; set yrange [{:.6g}:{:.6g}]\n",
+                       left, left + width, bottom, bottom + height, 100 * w.x0, 100 * w.x1, 100 * w.z0, 100 * w.z1) +
+           fmt::format(
+               "    set label 1 \"{0}\" at 0, graph 1 center offset 0, 0.9 textcolor rgb dark font \",14\"\n"
+               "    set arrow 1 from {1:.5g}, graph -0.015 to {2:.5g}, graph -0.015 nohead linewidth 2 linecolor "
+               "rgb dark front\n"
+               "    set label 2 \"{3:g} cm\" at 0, graph -0.015 center offset 0, -0.8 textcolor rgb dark font "
+               "\",11\" front\n",
+               title, -bar / 2, bar / 2, bar);
+}
+
+inline std::string strain_title(const specimen_view& view) {
+    return fmt::format("ε_a = {:.1f} %", 100.0 * view.axial_strain);
+}
+
+inline void draw_specimen(plot_folder& plots, const plot_request& request) {
+    const auto frame = common_window({&request.start, &request.end});
+    if (!frame) return;
+    const window w = *frame;
+    struct panel {
+        const specimen_view* view;
+        std::string name, title;
+    };
+    std::vector<panel> views;
+    if (!request.start.pebbles.empty()) views.push_back({&request.start, "start", "start of shear"});
+    if (!request.end.pebbles.empty()) views.push_back({&request.end, "end", strain_title(request.end)});
+    if (views.empty()) return;
+
+    // layout in points: titles above, scale bars and legend below
+    const double n = static_cast<double>(views.size());
+    const double panel_h = 560.0, panel_w = panel_h * (w.x1 - w.x0) / (w.z1 - w.z0);
+    const double gap = 24.0, above = 34.0, below = 74.0;
+    const double page_w = std::max(n * panel_w + (n + 1.0) * gap, 420.0), page_h = panel_h + above + below;
+    double left = (page_w - n * panel_w - (n - 1.0) * gap) / 2.0;
+    std::string panels;
+    for (const auto& [view, name, title] : views) {
+        const raster picture = render_side(view->pebbles, w, 1120);
+        plots.data("specimen_" + name + ".rgb", picture.bytes);
+        const auto rings = membrane_profile(view->facets);
+        plots.data("outline_" + name + ".csv",
+                   rings.empty() ? "NaN,NaN\n" : step_polygon(rings, &ring_profile::left, &ring_profile::right));
+        const double pixel = 100.0 * (w.z1 - w.z0) / picture.height;
+        panels += place(left / page_w, below / page_h, panel_w / page_w, panel_h / page_h, w, title);
+        panels +=
+            fmt::format("    plot \"data/specimen_{0}.rgb\" binary array=({1},{2}) format=\"%uchar\" dx={3:.8g} "
+                        "dy={3:.8g} origin=({4:.8g},{5:.8g}) using 1:2:3 with rgbimage notitle, \\\n"
+                        "         \"data/outline_{0}.csv\" using 1:2 with lines linewidth 1.2 linecolor rgb dark "
+                        "notitle\n",
+                        name, picture.width, picture.height, pixel, 100.0 * w.x0 + pixel / 2, 100.0 * w.z0 + pixel / 2);
+        left += panel_w + gap;
+    }
+    plots.draw("specimen", fill_in(std::string(specimen_script), {{"W", fmt::format("{:.0f}", page_w)},
+                                                                  {"H", fmt::format("{:.0f}", page_h)},
+                                                                  {"PANELS", panels},
+                                                                  {"LEGEND", legend(page_w, page_h, colour_of)}}));
+}
+
+/// Circles in which the plane coordinate[axis] = value cuts the pebbles, grain by grain: first a dark rim of the whole
+/// grain, then its fill, so that a clump shows one outline. Columns: cm, cm, cm, colour.
+inline std::string section_circles(std::span<const pebble_view> pebbles, int axis, double value, double rim) {
+    std::vector<std::size_t> cut;
+    for (std::size_t i = 0; i < pebbles.size(); ++i)
+        if (is_finite(pebbles[i].position) && std::abs(pebbles[i].position[axis] - value) < pebbles[i].radius)
+            cut.push_back(i);
+    const auto piece = [&](std::size_t i) { return std::pair(pebbles[cut[i]].grain, pebbles[cut[i]].fragment); };
+    std::stable_sort(cut.begin(), cut.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(pebbles[a].grain, pebbles[a].fragment) < std::pair(pebbles[b].grain, pebbles[b].fragment);
+    });
+    const int v = axis == 1 ? 2 : 1;
+    std::string text;
+    for (std::size_t first = 0, last = 0; first < cut.size(); first = last) {
+        while (last < cut.size() && piece(last) == piece(first)) ++last;
+        for (const bool fill : {false, true})
+            for (std::size_t i = first; i < last; ++i) {
+                const pebble_view& p = pebbles[cut[i]];
+                const double d = p.position[axis] - value;
+                const double r = std::sqrt(p.radius * p.radius - d * d) - (fill ? rim : 0.0);
+                const rgb c = fill ? section_colour(p.state) : rgb{45, 30, 30};
+                const int code =
+                    (static_cast<int>(c[0]) << 16) | (static_cast<int>(c[1]) << 8) | static_cast<int>(c[2]);
+                if (r > 0.0)
+                    fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g},{:.4g},{}\n", 100 * p.position.x,
+                                   100 * p.position[v], 100 * r, code);
+            }
+    }
+    return text.empty() ? "NaN,NaN,NaN,0\n" : text;
+}
+
+/// Segments in which the plane coordinate[axis] = value cuts the facets of the membrane, in cm.
+inline std::string section_wall(std::span<const facet_view> facets, int axis, double value) {
+    const int v = axis == 1 ? 2 : 1;
+    std::string text;
+    for (const facet_view& f : facets) {
+        if (f.ring < 0) continue;
+        int found = 0;
+        for (std::size_t i = 0; i < 4 && found < 2; ++i) {
+            const vec3 a = f.corner[i], b = f.corner[(i + 1) % 4];
+            const double da = a[axis] - value, db = b[axis] - value;
+            if ((da < 0.0) == (db < 0.0)) continue;
+            const vec3 c = a + (da / (da - db)) * (b - a);
+            fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g}\n", 100 * c.x, 100 * c[v]);
+            ++found;
+        }
+        if (found > 0) text += "\n";
+    }
+    return text.empty() ? "NaN,NaN\n" : text;
+}
+
+inline void draw_section(plot_folder& plots, const specimen_view& view) {
+    const auto frame = common_window({&view});
+    if (!frame || view.pebbles.empty()) return;
+    const window w = *frame;
+    const double tall = w.z1 - w.z0, wide = w.x1 - w.x0, middle = 0.5 * (w.z0 + w.z1);
+    const double rim = 0.0012 * tall;
+    plots.data("section_vertical.csv", section_circles(view.pebbles, 1, 0.0, rim));
+    plots.data("section_vertical_wall.csv", section_wall(view.facets, 1, 0.0));
+    plots.data("section_horizontal.csv", section_circles(view.pebbles, 2, middle, rim));
+    plots.data("section_horizontal_wall.csv", section_wall(view.facets, 2, middle));
+
+    const double panel_h = 560.0, panel_w = panel_h * wide / tall, gap = 30.0, above = 34.0, below = 74.0;
+    const double page_w = 2 * panel_w + 3 * gap, page_h = panel_h + above + below;
+    const auto panel = [&](const char* name, const std::string& title, double left, double bottom, double height,
+                           const window& shown) {
+        return place(left / page_w, bottom / page_h, panel_w / page_w, height / page_h, shown, title) +
+               fmt::format(
+                   "    plot \"data/section_{0}.csv\" using 1:2:3:4 with circles linecolor rgb variable notitle, "
+                   "\\\n         \"data/section_{0}_wall.csv\" using 1:2 with lines linewidth 1.6 linecolor rgb "
+                   "dark notitle\n",
+                   name);
+    };
+    const std::string panels = panel("vertical", "plane y = 0, " + strain_title(view), gap, below, panel_h, w) +
+                               panel("horizontal", "plane at mid-height", 2 * gap + panel_w,
+                                     below + 0.5 * (panel_h - panel_w), panel_w, {w.x0, w.x1, w.x0, w.x1});
+    plots.draw("section", fill_in(std::string(section_script), {{"W", fmt::format("{:.0f}", page_w)},
+                                                                {"H", fmt::format("{:.0f}", page_h)},
+                                                                {"PANELS", panels},
+                                                                {"LEGEND", legend(page_w, page_h, section_colour)}}));
+}
+
+inline void draw_curves(plot_folder& plots, const plot_request& request, const std::vector<sample>& rows) {
+    std::string wanted;
+    for (const std::string& s : request.stages) wanted += fmt::format("{}s eq \"{}\"", wanted.empty() ? "" : " || ", s);
+    if (wanted.empty()) wanted = "0";
+    const std::string series =
+        std::filesystem::proximate(std::filesystem::absolute(request.series), std::filesystem::absolute(plots.path()))
+            .string();
+    const sample* peak = nullptr;
+    double q_min = 0.0, v_min = 0.0, v_max = 0.0, strain = 0.0;
+    std::int64_t most = 0;
+    std::size_t sheared = 0, loaded = 0;
+    for (const sample& r : rows) {
+        if (r.axial_strain == 0.0 && r.p >= 1e3) ++loaded;
+        if (std::find(request.stages.begin(), request.stages.end(), r.stage) == request.stages.end()) continue;
+        ++sheared;
+        if (!peak || r.q > peak->q) peak = &r;
+        const double dilation = -100.0 * r.volumetric_strain;
+        q_min = std::min(q_min, r.q), v_min = std::min(v_min, dilation), v_max = std::max(v_max, dilation);
+        strain = std::max(strain, r.axial_strain);
+        most = std::max({most, r.broken_tension + r.broken_shear, r.replaced});
+    }
+    if (loaded >= 2) plots.draw("compression", fill_in(std::string(compression_script), {{"SERIES", series}}));
+    if (sheared < 2 || strain <= 0.0) return;
+    const double pad = std::max(0.12 * (v_max - v_min), 0.1);
+    const bool right_half = peak->axial_strain > 0.6 * strain;
+    const auto fill = [&](std::string_view script) {
+        return fill_in(std::string(script),
+                       {{"SERIES", series},
+                        {"WANTED", wanted},
+                        {"QPEAK", fmt::format("{:.8g}", 1e-6 * peak->q)},
+                        {"EPEAK", fmt::format("{:.8g}", 100.0 * peak->axial_strain)},
+                        {"QMIN", q_min < -1e3 ? "*" : "0"},
+                        {"QTOP", peak->q > 0.0 ? fmt::format("{:.6g}", 1.15e-6 * peak->q) : "*"},
+                        {"VMIN", fmt::format("{:.6g}", v_min - pad)},
+                        {"VMAX", fmt::format("{:.6g}", v_max + pad)},
+                        {"LABEL_SIDE", right_half ? "right" : "left"},
+                        {"LABEL_X", right_half ? "-0.5" : "0.5"},
+                        {"TOP", fmt::format("{}", std::max(std::ceil(1.08 * static_cast<double>(most)), 1.0))}});
+    };
+    plots.draw("stress", fill(stress_script));
+    plots.draw("volume", fill(volume_script));
+    plots.draw("fractures", fill(fractures_script));
+}
+
+} // namespace detail
+
+/// Draws all figures into `folder` (created): stress, volume, fractures, compression, membrane, rosette, specimen and
+/// section, each as .svg and .png. A figure without data is left out. A missing gnuplot is a problem in the report,
+/// not an error; throws run_error where scripts cannot be written and input_error where the tables cannot be read.
+inline plot_report draw_plots(const std::filesystem::path& folder, const plot_request& request) {
+    plot_report report;
+    detail::plot_folder plots(folder, report);
+    detail::draw_curves(plots, request, read_table<sample>(request.series));
+    detail::draw_rosette(plots, read_table<fracture_event>(request.events));
+    detail::draw_membrane(plots, request);
+    detail::draw_specimen(plots, request);
+    detail::draw_section(plots, request.end.pebbles.empty() ? request.start : request.end);
+    return report;
+}
+
+} // namespace clast
