@@ -27,6 +27,9 @@ TEST_CASE("inward platens approach each other and see where they will be", "[bou
     p.touch_sphere({0, 0, 0.006}, 5e-3, 0.2, t); // the bottom one will be at 2 mm
     REQUIRE(t.size == 1);
     CHECK(t.at[0].depth == Approx(1e-3).epsilon(1e-12));
+    p.touch_sphere({0, 0, 0.188}, 5e-3, 0.3, t); // the top one at 191 mm
+    REQUIRE(t.size == 2);
+    CHECK(t.at[1].depth == Approx(2e-3).epsilon(1e-12));
     p.advance(0.5);
     CHECK(p.height() == Approx(0.18).epsilon(1e-14));
     CHECK(p.covered(0.1, 0.3) == Approx(0.085).epsilon(1e-14));

@@ -176,6 +176,21 @@ TEST_CASE("the push frees a sphere by the shortest way, and every facet only pus
     CHECK(shorter == 0);
 }
 
+TEST_CASE("a sphere can rest on a ledge and in a valley at once: three facets, each with its own share",
+          "[boundaries]") {
+    const double a = 0.1 * std::numbers::pi;
+    std::vector<half_slab> wall;
+    add_column(wall, 0.0, {0.144, 0.15});
+    add_column(wall, a, {0.144, 0.15});
+    const double middle = (0.15 - (r - 1e-4)) / std::cos(0.5 * a);
+    const vec3 c{middle * std::cos(0.5 * a), middle * std::sin(0.5 * a), h + r - 2e-4};
+    const touches t = contacts(wall, c);
+    REQUIRE(t.size == 3);
+    for (const touch& one : t)
+        CHECK(one.depth == Approx(one.normal.z > 0.5 ? 2e-4 : 1e-4 / (1.0 + std::cos(a))).epsilon(1e-9));
+    CHECK(lateral_push(t).z == Approx(2e-4).epsilon(1e-9));
+}
+
 TEST_CASE("a tile seen from behind lifts or lowers a sphere but never pulls it outward", "[boundaries]") {
     std::vector<half_slab> wall;
     add_column(wall, 0.0, {0.15, 0.1546, 0.15});

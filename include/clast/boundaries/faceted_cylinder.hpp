@@ -357,8 +357,9 @@ double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, do
     const int facing = dir_.towards(x.x, x.y);
     bool more = look_at(facing);
     for (int m = 1; 2 * m < around_ && more; ++m) {
-        more = look_at(dir_.wrap(facing + m));
-        more = look_at(dir_.wrap(facing - m)) || more;
+        // by turns: a tile out of reach on one side rules out the next one on the other
+        const bool right = look_at(dir_.wrap(facing + m));
+        more = look_at(dir_.wrap(facing - m)) && right;
     }
     return deepest;
 }

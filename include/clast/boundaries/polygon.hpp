@@ -29,7 +29,29 @@ struct directions {
     double angle() const { return 2.0 * std::numbers::pi / count; } ///< between neighbours (rad)
     int wrap(int i) const { return i >= count ? i - count : i < 0 ? i + count : i; }
     /// The tile that looks most nearly towards (x, y).
-    int towards(double x, double y) const { return wrap(static_cast<int>(std::lround(std::atan2(y, x) / angle()))); }
+    int towards(double x, double y) const {
+        // a cheap arc tangent (error below 0.004 rad, far less than a sector), then the best of three; std::atan2 took
+        // a third of the time of a contact search
+        const double ax = std::abs(x);
+        const double ay = std::abs(y);
+        const double large = std::max(ax, ay);
+        if (!(large > 0.0)) return 0;
+        const double t = std::min(ax, ay) / large;
+        constexpr double quarter = 0.25 * std::numbers::pi;
+        double azimuth = t * (quarter + 0.273 * (1.0 - t));
+        if (ay > ax) azimuth = 2.0 * quarter - azimuth;
+        if (x < 0.0) azimuth = 4.0 * quarter - azimuth;
+        if (y < 0.0) azimuth = 8.0 * quarter - azimuth;
+        const int i = wrap(static_cast<int>(azimuth * count / (8.0 * quarter) + 0.5));
+        const auto along = [&](int j) {
+            return x * cosine[static_cast<std::size_t>(j)] + y * sine[static_cast<std::size_t>(j)];
+        };
+        const int next = wrap(i + 1);
+        const int last = wrap(i - 1);
+        const double here = along(i);
+        if (along(next) > here) return next;
+        return along(last) > here ? last : i;
+    }
 
     template <class A> void archive(A& a) { a(count, cosine, sine); }
 };

@@ -19,6 +19,9 @@ struct touch {
     vec3 normal;        ///< unit vector into the specimen: direction of the force on the pebble
     double depth;       ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
     double along = 1.0; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
+    /// d depth / d (way of the facet along `normal`): 1 alone; larger where nearly parallel facets share a pebble,
+    /// because a small move of one against the other then shifts the whole load between them.
+    double sharing = 1.0;
 };
 
 /// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
@@ -58,7 +61,7 @@ struct facet_load {
     /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
     constexpr void add(const touch& t, double force_on_pebble, double k) {
         force += force_on_pebble * t.along;
-        stiffness += k * t.along * t.along;
+        stiffness += k * t.sharing * t.along * t.along;
         ++contacts;
     }
 };
