@@ -19,9 +19,9 @@ constexpr double pi = std::numbers::pi;
 
 /// Inertia tensor by another road: for each pebble integrate (r^2 E - r r^T) over a ball with moments of a solid ball,
 /// int x_i x_j dV = V (c_i c_j + delta_ij r^2 / 5).
-double second_moment(const shape &s, int i, int j) {
+double second_moment(const shape& s, int i, int j) {
     double sum = 0.0;
-    for (const shape_pebble &p : s.pebbles)
+    for (const shape_pebble& p : s.pebbles)
         sum += 4.0 / 3.0 * pi * std::pow(p.radius, 3) *
                (p.offset[i] * p.offset[j] + (i == j ? p.radius * p.radius / 5.0 : 0.0));
     return sum;
@@ -29,28 +29,28 @@ double second_moment(const shape &s, int i, int j) {
 
 struct text_file {
     std::string path;
-    explicit text_file(const std::string &text)
+    explicit text_file(const std::string& text)
         : path((std::filesystem::temp_directory_path() /
                 ("clast_shape_test_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".txt"))
                    .string()) {
         std::ofstream(path) << text;
     }
     ~text_file() { std::remove(path.c_str()); }
-    text_file(const text_file &) = delete;
-    text_file &operator=(const text_file &) = delete;
+    text_file(const text_file&) = delete;
+    text_file& operator=(const text_file&) = delete;
 };
 
-std::string message_of(const std::string &text) {
+std::string message_of(const std::string& text) {
     const text_file file(text);
     try {
         shapes::from_file(file.path);
-    } catch (const input_error &error) {
+    } catch (const input_error& error) {
         return error.what();
     }
     return "no error";
 }
 
-bool contains(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 } // namespace
 
@@ -59,7 +59,7 @@ TEST_CASE("shape 4B is a regular tetrahedron of four touching pebbles in its cir
     REQUIRE(s.pebbles.size() == 4);
     CHECK(s.bonds.size() == 6);
     CHECK(s.diameter == Approx(0.02).epsilon(1e-15));
-    for (const shape_pebble &p : s.pebbles) {
+    for (const shape_pebble& p : s.pebbles) {
         CHECK(p.radius == Approx(0.01 * 0.4494897427831781).epsilon(1e-14)); // sqrt(6) - 2
         CHECK(norm(p.offset) + p.radius == Approx(0.01).epsilon(1e-15));
         CHECK(norm(p.offset) == Approx(5.505102572e-3).epsilon(1e-9));
@@ -75,7 +75,7 @@ TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") 
     CHECK(s.bonds.size() == 36);
     int big_big = 0;
     int big_small = 0;
-    for (const shape_bond &b : s.bonds) {
+    for (const shape_bond& b : s.bonds) {
         CHECK(b.a < b.b);
         (b.b < 6 ? big_big : big_small) += 1;
         CHECK(b.a < 6); // no small-small contact
@@ -83,7 +83,7 @@ TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") 
     CHECK(big_big == 12);
     CHECK(big_small == 24);
     for (std::size_t i = 0; i < 14; ++i) {
-        const shape_pebble &p = s.pebbles[i];
+        const shape_pebble& p = s.pebbles[i];
         CHECK(norm(p.offset) + p.radius == Approx(0.01).epsilon(1e-14)); // all touch the circumscribed sphere
         CHECK(p.radius == Approx(i < 6 ? 4.142e-3 : 2.30e-3).epsilon(1e-3));
     }
@@ -92,16 +92,16 @@ TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") 
 }
 
 TEST_CASE("the pebbles of a shape touch but do not overlap beyond rounding") {
-    for (const shape &s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
-        for (const shape_bond &b : s.bonds) {
-            const shape_pebble &p = s.pebbles[static_cast<std::size_t>(b.a)];
-            const shape_pebble &q = s.pebbles[static_cast<std::size_t>(b.b)];
+    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
+        for (const shape_bond& b : s.bonds) {
+            const shape_pebble& p = s.pebbles[static_cast<std::size_t>(b.a)];
+            const shape_pebble& q = s.pebbles[static_cast<std::size_t>(b.b)];
             CHECK(std::abs(norm(p.offset - q.offset) - p.radius - q.radius) < 1e-15 * 20 * s.diameter);
         }
 }
 
 TEST_CASE("4B and 14B have isotropic inertia that equals the second moments of their balls") {
-    for (const shape &s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02), shapes::sphere(0.02)}) {
+    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02), shapes::sphere(0.02)}) {
         CHECK(s.inertia_per_density.x == s.inertia_per_density.y); // bit-equal: integrators rely on it
         CHECK(s.inertia_per_density.y == s.inertia_per_density.z);
         for (int i = 0; i < 3; ++i) {
@@ -139,7 +139,7 @@ TEST_CASE("principal axes are right-handed and lead back to the given pebbles") 
     const std::vector<shape_pebble> given = {
         {{0, 0, 0}, 1.0}, {{1.9, 0.4, 0.6}, 0.9}, {{-0.3, 1.6, 0.2}, 0.5}, {{0.5, -0.3, -1.5}, 0.55}};
     std::vector<shape_pebble> moved = given;
-    for (shape_pebble &p : moved) p.offset += shift;
+    for (shape_pebble& p : moved) p.offset += shift;
     const shape s = make_shape("irregular", moved);
     const double scale = s.inertia_per_density.z;
     CHECK(s.inertia_per_density.x < s.inertia_per_density.y);
@@ -187,7 +187,7 @@ TEST_CASE("overlapping pebbles are refused with the pair, the overlap and the fa
     CHECK_THROWS_AS(overlapping(), input_error);
     try {
         overlapping();
-    } catch (const input_error &error) {
+    } catch (const input_error& error) {
         CHECK(contains(error.what(), "'bad'"));
         CHECK(contains(error.what(), "pebbles 1 and 2 overlap by 0.1 m"));
         CHECK(contains(error.what(), "multiply their radii by 0.95"));
@@ -237,7 +237,7 @@ TEST_CASE("a shape is chosen by name, and an unknown name is refused with the ch
     CHECK_THROWS_AS(shapes::by_name("15B", 0.02), input_error);
     try {
         shapes::by_name("15B", 0.02);
-    } catch (const input_error &error) {
+    } catch (const input_error& error) {
         CHECK(contains(error.what(), "14B, 4B, sphere"));
     }
 }

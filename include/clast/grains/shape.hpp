@@ -52,7 +52,7 @@ struct shape {
     vec3 mass_centre;                  ///< mass centre in the frame in which the pebbles were given (m)
     double phi_nominal = 0.0;          ///< sphericity that the source of the shape states; 0 where there is none
 
-    template <class A> void archive(A &a) {
+    template <class A> void archive(A& a) {
         a(name, pebbles, bonds, volume, circumscribed_radius, diameter, inertia_per_density, to_input_frame,
           mass_centre, phi_nominal);
     }
@@ -69,9 +69,9 @@ constexpr double sphere_volume(double radius) { return 4.0 / 3.0 * std::numbers:
 /// Inertia tensor over density of solid spheres about the origin of their offsets (m^5), exact: parallel axes summed
 /// over the pebbles, not a hull or a voxel value, so that replacing a clump by its balls keeps kinetic energy and
 /// angular momentum to rounding.
-inline mat3 inertia_tensor_per_density(const std::vector<shape_pebble> &pebbles) {
+inline mat3 inertia_tensor_per_density(const std::vector<shape_pebble>& pebbles) {
     mat3 sum;
-    for (const shape_pebble &p : pebbles) {
+    for (const shape_pebble& p : pebbles) {
         const double v = sphere_volume(p.radius);
         const double own = sphere_inertia_per_density(p.radius);
         sum += (own + v * norm2(p.offset)) * mat3::identity() + (-v) * outer(p.offset, p.offset);
@@ -80,7 +80,7 @@ inline mat3 inertia_tensor_per_density(const std::vector<shape_pebble> &pebbles)
 }
 
 /// Number of connected pieces of the bond graph; 1 for a shape that holds together.
-inline int pieces(const shape &s) {
+inline int pieces(const shape& s) {
     std::vector<std::size_t> root(s.pebbles.size());
     for (std::size_t i = 0; i < root.size(); ++i) root[i] = i;
     const auto find = [&root](std::size_t i) {
@@ -88,7 +88,7 @@ inline int pieces(const shape &s) {
         return i;
     };
     int count = static_cast<int>(root.size());
-    for (const shape_bond &bond : s.bonds) {
+    for (const shape_bond& bond : s.bonds) {
         const std::size_t a = find(static_cast<std::size_t>(bond.a));
         const std::size_t b = find(static_cast<std::size_t>(bond.b));
         if (a != b) root[std::max(a, b)] = std::min(a, b), --count;
@@ -98,9 +98,9 @@ inline int pieces(const shape &s) {
 
 /// Wadell sphericity pi^(1/3) (6 V)^(2/3) / A with V and A summed over the pebbles: 1 for a ball, n^(-1/3) for n equal
 /// pebbles. The hull of the pebbles is rounder; published sphericities of clumps usually mean a smoothed surface.
-inline double sphericity(const shape &s) {
+inline double sphericity(const shape& s) {
     double area = 0.0;
-    for (const shape_pebble &p : s.pebbles) area += 4.0 * std::numbers::pi * p.radius * p.radius;
+    for (const shape_pebble& p : s.pebbles) area += 4.0 * std::numbers::pi * p.radius * p.radius;
     return std::cbrt(std::numbers::pi) * std::cbrt(36.0 * s.volume * s.volume) / area;
 }
 
@@ -113,7 +113,7 @@ struct principal_frame {
 
 /// Principal axes of a symmetric tensor. Axes that the tensor leaves free (equal moments) follow the given axes, and
 /// signs are fixed, so that the same input gives the same frame with every eigenvalue solver.
-inline principal_frame principal_axes(const mat3 &tensor) {
+inline principal_frame principal_axes(const mat3& tensor) {
     constexpr double same = 1e-9; // relative; far above rounding, far below any intended anisotropy
     const double size = trace(tensor) / 3.0;
     const double off = std::max({std::abs(tensor(0, 1)), std::abs(tensor(0, 2)), std::abs(tensor(1, 2))});
@@ -175,7 +175,7 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
     vec3 moment;
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < pebbles.size(); ++i) {
-        const shape_pebble &p = pebbles[i];
+        const shape_pebble& p = pebbles[i];
         if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
             throw input_error(option,
                               fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
@@ -185,11 +185,11 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
         smallest = std::min(smallest, p.radius);
     }
     s.mass_centre = moment / s.volume;
-    for (shape_pebble &p : pebbles) p.offset -= s.mass_centre;
+    for (shape_pebble& p : pebbles) p.offset -= s.mass_centre;
 
     const detail::principal_frame frame = detail::principal_axes(inertia_tensor_per_density(pebbles));
     s.to_input_frame = frame.to_input;
-    for (shape_pebble &p : pebbles) {
+    for (shape_pebble& p : pebbles) {
         if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
         s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
     }
@@ -197,7 +197,7 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
     const mat3 tensor = inertia_tensor_per_density(pebbles);
     s.inertia_per_density = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
     // bit-equal moments let the integrator see an isotropic body without a tolerance
-    vec3 &inertia = s.inertia_per_density;
+    vec3& inertia = s.inertia_per_density;
     if (frame.equal == 3) inertia.x = inertia.y = inertia.z = trace(tensor) / 3.0;
     if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
 
@@ -222,7 +222,7 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
 inline shape scaled_to(shape s, double diameter) {
     detail::check_diameter(diameter);
     const double f = diameter / s.diameter;
-    for (shape_pebble &p : s.pebbles) p.offset *= f, p.radius *= f;
+    for (shape_pebble& p : s.pebbles) p.offset *= f, p.radius *= f;
     s.volume *= f * f * f;
     s.inertia_per_density *= f * f * f * f * f;
     s.mass_centre *= f;
@@ -282,8 +282,8 @@ inline shape apollonian_14(double diameter) {
 /// Shape from a text file: one pebble per line, `x y z r` (m, any frame), blank lines and text after # are skipped. The
 /// name is the file name without directory and extension. Throws input_error with file and line for what is wrong, and
 /// if the pebbles overlap or do not hold together (their bonds must form one piece).
-inline shape from_file(const std::string &path) {
-    const auto wrong = [&path](std::size_t line, const std::string &what) {
+inline shape from_file(const std::string& path) {
+    const auto wrong = [&path](std::size_t line, const std::string& what) {
         return input_error(fmt::format("shape file {}:{}: {}. A line holds four numbers, x y z r (m), with r > 0; text "
                                        "after # is a comment.",
                                        path, line, what));
@@ -307,8 +307,8 @@ inline shape from_file(const std::string &path) {
             rest.remove_prefix(begin);
             const std::string_view word = rest.substr(0, rest.find_first_of(blank));
             rest.remove_prefix(word.size());
-            const char *first = word.data();
-            const char *last = word.data() + word.size();
+            const char* first = word.data();
+            const char* last = word.data() + word.size();
             if (word.size() > 1 && word[0] == '+') ++first; // from_chars knows no plus sign
             double x = 0.0;
             const auto [end, error] = std::from_chars(first, last, x);
@@ -332,7 +332,7 @@ inline shape from_file(const std::string &path) {
     shape s;
     try {
         s = make_shape(std::move(name), std::move(pebbles));
-    } catch (const input_error &error) {
+    } catch (const input_error& error) {
         std::string lines; // pebble numbers in that message count from 0 in the order of the file
         for (std::size_t i = 0; i < std::min<std::size_t>(line_of.size(), 100); ++i)
             lines += fmt::format("{}{}", i == 0 ? "" : ", ", line_of[i]);
@@ -349,7 +349,7 @@ inline shape from_file(const std::string &path) {
 
 /// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to the
 /// circumscribed diameter d (m). Throws input_error for an unknown name or a wrong file.
-inline shape by_name(const std::string &text, double diameter) {
+inline shape by_name(const std::string& text, double diameter) {
     if (text == "14B" || text == "14b") return apollonian_14(diameter);
     if (text == "4B" || text == "4b") return tetrahedron_4(diameter);
     if (text == "sphere") return sphere(diameter);
