@@ -33,8 +33,9 @@ concept has_facets = requires(const B& b, int facet) {
 
 /// Is driven: control sets velocities from loads, advance moves facets by one step, fastest is the largest speed (m/s).
 template <class B>
-concept driven = requires(B& b, const B& seen, std::span<const facet_load> loads, const drives& d, double dt) {
-    b.control(loads, d, dt);
+concept driven = requires(B& b, const B& seen, std::span<const facet_load> loads, const drives& d, double dt,
+                          std::span<const coupling> couplings) {
+    b.control(loads, d, dt, couplings);
     b.advance(dt);
     { seen.fastest() } -> std::convertible_to<double>;
 };

@@ -22,6 +22,7 @@
 #include <clast/boundaries/touch.hpp>
 #include <clast/control/gap_control.hpp>
 #include <clast/control/servo.hpp>
+#include <clast/control/servo_group.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/measure/sample.hpp>
@@ -150,7 +151,9 @@ template <moving_unit Unit> class faceted_cylinder {
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap control, then the
     /// facets that follow others. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
-    void control(std::span<const facet_load> loads, const drives& d, double dt);
+    /// `couplings` name facets that share pebbles, so that their servos act together (control/servo_group.hpp).
+    void control(std::span<const facet_load> loads, const drives& d, double dt,
+                 std::span<const coupling> couplings = {});
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
     void advance(double dt) {
         platens_.advance(dt);
@@ -237,7 +240,7 @@ template <moving_unit Unit> class faceted_cylinder {
     };
     /// Sums load and area of what moves together, the ends that follow included, into one entry per unit of every ring.
     void collect(std::span<const facet_load> loads, std::vector<unit_load>& units) const;
-    void servo_wall(const drive& d, double dt);
+    void servo_wall(const drive& d, double dt, std::span<const coupling> couplings);
     void control_gaps();
     void follow(const drive& d, double dt);
 
@@ -264,6 +267,7 @@ template <moving_unit Unit> class faceted_cylinder {
     bool backward_ = false;
     boundary_counters counters_;
     std::vector<unit_load> units_; // work space of control(), kept to save the allocation
+    control::servo_group group_;   // likewise
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
@@ -457,7 +461,8 @@ void faceted_cylinder<Unit>::collect(std::span<const facet_load> loads, std::vec
 }
 
 template <moving_unit Unit>
-void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const drives& d, double dt) {
+void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const drives& d, double dt,
+                                     std::span<const coupling> couplings) {
     check(d.platens, "drives.platens");
     check(d.lateral, "drives.lateral");
     using mode = drive::mode;
@@ -471,7 +476,7 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
     }
     if (d.lateral.how == mode::servo) {
         collect(loads, units_);
-        servo_wall(d.lateral, dt);
+        servo_wall(d.lateral, dt, couplings);
         control_gaps();
     } else {
         std::fill(velocity_.begin(), velocity_.end(), d.lateral.how == mode::velocity ? d.lateral.value : 0.0);
@@ -481,13 +486,32 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
     for (const double v : velocity_) lateral_speed_ = std::max(lateral_speed_, std::abs(v));
 }
 
-template <moving_unit Unit> void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt) {
+template <moving_unit Unit>
+void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<const coupling> couplings) {
     const int per_ring = units_around();
+    group_.reset(units_.size());
+    for (int k = active_first_; k <= active_last_; ++k)
+        for (int i = 0; i < per_ring; ++i) {
+            const std::size_t at = index(k * per_ring + i);
+            const unit_load& u = units_[at];
+            if (u.load.stiffness > 0.0)
+                group_.set(at, d.value * u.area - u.load.force, std::max(u.load.stiffness, set_.contact_stiffness_floor));
+        }
+    const auto unit_of = [&](std::int32_t facet) {
+        const int j = facet - first_lateral_facet;
+        const int ring = std::clamp(j / around_, active_first_, active_last_);
+        return index(ring * per_ring + (per_ring == 1 ? 0 : j % around_));
+    };
+    for (const coupling& c : couplings) group_.couple(unit_of(c.a), unit_of(c.b), c.stiffness);
+    group_.solve();
     for (int k = active_first_; k <= active_last_; ++k) {
         for (int i = 0; i < per_ring; ++i) {
             const unit_load& u = units_[index(k * per_ring + i)];
-            const double v = control::inward_velocity({d.value * u.area, u.load.force, u.load.stiffness,
-                                                       set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
+            const double v = u.load.stiffness > 0.0
+                                 ? std::clamp(d.gain * group_.displacement(index(k * per_ring + i)) / dt, -d.max_speed,
+                                              d.max_speed)
+                                 : control::inward_velocity({d.value * u.area, u.load.force, 0.0,
+                                                             set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
             const int tiles = per_ring == 1 ? around_ : 1;
             for (int t = i; t < i + tiles; ++t) velocity_[tile(k, t)] = v;
             ++counters_.tile_steps;

@@ -138,15 +138,6 @@ inline nearest_point project(std::span<const half_space> all, double tolerance) 
     return p;
 }
 
-/// Diagonal entry i of the inverse Gram matrix of the active normals: d lambda_i / d b_i.
-inline double sharing(const nearest_point& p, std::span<const half_space> planes, int i) {
-    const auto normal = [&](int k) { return planes[static_cast<std::size_t>(p.by[static_cast<std::size_t>(k)])].n; };
-    if (p.size == 1) return 1.0;
-    if (p.size == 2) return 1.0 / (1.0 - std::pow(dot(normal(0), normal(1)), 2));
-    const vec3 across = cross(normal((i + 1) % 3), normal((i + 2) % 3));
-    return norm2(across) / std::pow(dot(normal(i), across), 2);
-}
-
 } // namespace detail
 
 /// Contacts of a sphere with a solid made of half_slabs (at most max_slabs): adds to `out` those facets that push,
@@ -162,9 +153,9 @@ inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, 
         if (s.distance < first.distance) first = s, deepest = j;
     }
     if (deepest == slabs.size()) return;
-    const auto report = [&](std::size_t j, const vec3& n, double depth, double sharing) {
+    const auto report = [&](std::size_t j, const vec3& n, double depth) {
         const half_slab& h = slabs[j];
-        out.add({h.facet, n, depth, -(n.x * h.nx + n.y * h.ny), sharing});
+        out.add({h.facet, n, depth, -(n.x * h.nx + n.y * h.ny)});
     };
     // No way out is shorter than the deepest overlap, so if it frees the sphere from all slabs it is the shortest.
     const double depth = r - first.distance;
@@ -172,7 +163,7 @@ inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, 
     bool alone = true;
     for (std::size_t j = 0; j < slabs.size() && alone; ++j)
         alone = j == deepest || separate(slabs[j], x + u).distance >= r - tolerance;
-    if (alone) return report(deepest, first.normal, depth, 1.0);
+    if (alone) return report(deepest, first.normal, depth);
 
     std::array<detail::half_space, max_slabs> planes;
     const auto tangent = std::span(planes).first(slabs.size());
@@ -190,7 +181,7 @@ inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, 
     for (int i = 0; i < p.size; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const auto j = static_cast<std::size_t>(p.by[k]);
-        if (p.lambda[k] > 0.0) report(j, planes[j].n, p.lambda[k], detail::sharing(p, planes, i));
+        if (p.lambda[k] > 0.0) report(j, planes[j].n, p.lambda[k]);
     }
 }
 

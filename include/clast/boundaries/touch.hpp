@@ -19,9 +19,6 @@ struct touch {
     vec3 normal;        ///< unit vector into the specimen: direction of the force on the pebble
     double depth;       ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
     double along = 1.0; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
-    /// d depth / d (way of the facet along `normal`): 1 alone; larger where nearly parallel facets share a pebble,
-    /// because a small move of one against the other then shifts the whole load between them.
-    double sharing = 1.0;
 };
 
 /// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
@@ -52,6 +49,38 @@ constexpr double elastic_energy(const touches& t, double k_platen, double k_late
     return energy;
 }
 
+/// How the shares (touch::depth) of the lateral facets that one pebble touches answer to a move of one of them along its
+/// normal: the inverse Gram matrix of the normals, in the order of the lateral touches. 1 for a facet alone; large for
+/// nearly parallel facets, because a small move of one against the other shifts the whole load between them.
+using sharing_matrix = std::array<std::array<double, 3>, 3>;
+inline sharing_matrix sharing(const touches& t) {
+    std::array<vec3, 3> n;
+    std::size_t count = 0;
+    for (const touch& one : t)
+        if (one.facet >= first_lateral_facet && count < 3) n[count++] = one.normal;
+    sharing_matrix s{};
+    if (count == 1) {
+        s[0][0] = 1.0;
+    } else if (count == 2) {
+        const double c = dot(n[0], n[1]), d = 1.0 / (1.0 - c * c);
+        s[0][0] = s[1][1] = d;
+        s[0][1] = s[1][0] = -c * d;
+    } else if (count == 3) {
+        const std::array<vec3, 3> dual{cross(n[1], n[2]), cross(n[2], n[0]), cross(n[0], n[1])};
+        const double volume = dot(n[0], dual[0]);
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) s[i][j] = dot(dual[i], dual[j]) / (volume * volume);
+    }
+    return s;
+}
+
+/// Two facets that share a pebble: moving one changes the force on the other.
+struct coupling {
+    std::int32_t a;
+    std::int32_t b;
+    double stiffness; ///< d force on a / d inward displacement of b (N/m), negative
+};
+
 /// What the grains do to one facet in one step.
 struct facet_load {
     double force = 0.0;     ///< component, along the inward normal, of what the facet exerts on grains (N), >= 0
@@ -61,7 +90,7 @@ struct facet_load {
     /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
     constexpr void add(const touch& t, double force_on_pebble, double k) {
         force += force_on_pebble * t.along;
-        stiffness += k * t.sharing * t.along * t.along;
+        stiffness += k * t.along * t.along;
         ++contacts;
     }
 };

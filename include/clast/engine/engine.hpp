@@ -1,0 +1,1075 @@
+// SPDX-License-Identifier: MIT
+// One step of a specimen inside its boundary: the anatomy that every policy fits into.
+//
+//   slow contacts and facets (clump against clump, clump against facet)        rows
+//   sub-steps of light bodies (balls, bonded clusters and the clumps that touch them)
+//       fast contacts and facets                                               rows
+//       every body sums its rows in one fixed order, is damped and integrated; clusters sub-cycle their bonds
+//   all other clumps sum, damp, integrate
+//   criterion and replacement every few steps; servo; boundary moves
+//
+// Multirate: contacts that involve a ball are integrated with the step that the lightest ball needs, as an impulse
+// multiple-time-step scheme (slow forces kick once per step at its start, fast forces kick in every sub-step), and bonds
+// with a smaller step still. So a replacement never shrinks the step of the specimen, and momentum is exact.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include <clast/bonds/cluster_pool.hpp>
+#include <clast/boundaries/concepts.hpp>
+#include <clast/boundaries/drive.hpp>
+#include <clast/boundaries/touch.hpp>
+#include <clast/contacts/concepts.hpp>
+#include <clast/core/errors.hpp>
+#include <clast/core/parallel.hpp>
+#include <clast/engine/contact_list.hpp>
+#include <clast/engine/policies.hpp>
+#include <clast/engine/specimen.hpp>
+#include <clast/integrators/local_damping.hpp>
+#include <clast/integrators/rotation.hpp>
+#include <clast/integrators/time_step.hpp>
+#include <clast/measure/sample.hpp>
+
+namespace clast {
+
+/// Parameters of an engine that are values, not types. SI units.
+template <triaxial_policies P>
+struct engine_settings {
+    typename P::contact grain_contact;   ///< pebble against pebble
+    typename P::contact platen_contact;  ///< pebble against platen
+    typename P::contact lateral_contact; ///< pebble against the lateral wall
+    typename P::breakage breakage;
+    typename P::replacement replacement;
+    double damping = 0.7;  ///< local damping coefficient in [0, 1)
+    double safety = 0.8;   ///< of the time-step estimate, in (0, 1]
+    double skin = 0.5e-3;  ///< m: pairs with a smaller gap are listed, > 0
+    double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
+    execution run;
+};
+
+/// State that only breakable specimens have.
+struct breakage_state {
+    std::vector<bonds::cluster_pool> pools;                  ///< per shape
+    std::vector<std::vector<std::int32_t>> members;          ///< per pool: grain of each cluster
+    std::vector<std::int32_t> fragment;                      ///< per pebble: smallest pebble of its piece
+    std::vector<std::uint8_t> bonded;                        ///< per pebble: belongs to a cluster with intact bonds
+    std::vector<std::int32_t> balls;                         ///< pebbles that move on their own, ascending
+    std::vector<std::uint8_t> halo;                          ///< per grain: touches a ball, moves in sub-steps
+    std::vector<fracture_event> events;                      ///< since the last call of take_events
+    double time = 0.0;
+
+    template <class A>
+    void archive(A& a) {
+        for (auto& p : pools) p.archive(a); // lattices are remade from shapes, only their state is kept
+        for (auto& m : members) a(m);
+        a(fragment, bonded, balls, halo); // events must have been taken
+    }
+};
+
+struct nothing {
+    template <class A>
+    void archive(A&) {}
+};
+
+/// Totals that an audit needs (J), and counters.
+struct engine_totals {
+    double boundary_work = 0.0;    ///< done on the specimen by platens and lateral wall
+    double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
+    double initial_energy = 0.0;   ///< brought in with initial velocities
+    std::int64_t steps = 0;
+    std::int64_t rebuilds = 0;
+    std::int64_t replaced = 0;
+    std::int64_t broken_tension = 0;
+    std::int64_t broken_shear = 0;
+    double time = 0.0;
+};
+
+/// A specimen, its boundary and the policies that move them. Construct complete; then call step().
+template <triaxial_policies P>
+class engine {
+  public:
+    using contact = typename P::contact;
+    using history = typename contact::history;
+    using boundary_type = typename P::boundary;
+    using settings_type = engine_settings<P>;
+    static constexpr bool breakable = P::replacement::makes_bonds;
+    static constexpr bool has_criterion = P::breakage::evaluated;
+
+    settings_type settings;
+    specimen grains;
+    boundary_type boundary;
+    boundaries::drives drives;
+    bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
+
+    engine(settings_type s, specimen sp, boundary_type b)
+        : settings(std::move(s)), grains(std::move(sp)), boundary(std::move(b)) {
+        if constexpr (breakable) {
+            for (const shape& one : grains.shapes)
+                broken_.pools.emplace_back(bonds::lattice(one, settings.replacement.bond, grains.density),
+                                           settings.damping);
+            broken_.members.resize(grains.shapes.size());
+            broken_.bonded.assign(grains.pebble_count(), 0);
+            broken_.halo.assign(grains.grain_count(), 0);
+            broken_.fragment.resize(grains.pebble_count());
+            for (std::size_t p = 0; p < grains.pebble_count(); ++p)
+                broken_.fragment[p] = grains.grains[at(grains.mother[p])].first;
+            grains.motion.resize(grains.grain_count() + grains.pebble_count());
+            grains.losses.resize(grains.motion.size());
+        }
+        for (const auto& g : grains.shapes) smallest_mass_ = std::min(smallest_mass_, grains.density * g.volume);
+        loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
+        needed_.assign(grains.pebble_count(), 0);
+        totals_.initial_energy = kinetic_energy();
+        rebuild();
+        estimate_step(true);
+    }
+
+    // ---- stepping -------------------------------------------------------------------------------------------------
+
+    /// Advances by one step of dt(). Throws run_error if a number stops being finite or a grain leaves the boundary.
+    void step() {
+        if (must_rebuild_) rebuild();
+        if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
+        evaluate(slow_, slow_wall_, dt_, 0.0);
+        const bool light = has_light_bodies();
+        if constexpr (breakable)
+            if (light) evaluate(fast_, fast_wall_, dt_ / fast_steps_, 0.0);
+        control(light);
+        if constexpr (breakable && has_criterion)
+            if (breakage_on && totals_.steps % settings.replacement.check_interval == 0) mark_critical();
+        if constexpr (breakable)
+            if (light) advance_light();
+        integrate_clumps();
+        finish_boundary();
+        if constexpr (breakable) replace_marked();
+        totals_.time += dt_;
+        ++totals_.steps;
+        check_displacements();
+    }
+
+    double dt() const { return dt_; }
+    double time() const { return totals_.time; }
+    const engine_totals& totals() const { return totals_; }
+    int fast_steps() const { return fast_steps_; }
+    std::span<const boundaries::facet_load> loads() const { return loads_; }
+    const contact_list<history>& slow_contacts() const { return slow_; }
+    const contact_list<history>& fast_contacts() const { return fast_; }
+    const breakage_state& breakage() const
+        requires breakable
+    {
+        return broken_;
+    }
+    /// Broken bonds since the last call, in the order in which they broke.
+    std::vector<fracture_event> take_events() {
+        if constexpr (breakable) return std::exchange(broken_.events, {});
+        return {};
+    }
+
+    /// Replaces the boundary by another in the same place (a membrane for the vessel), and the lists with it.
+    void set_boundary(boundary_type b) {
+        boundary = std::move(b);
+        loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
+        rebuild();
+    }
+    /// Sets friction between pebbles; histories stay and are cut at the new limit in the next step.
+    void set_friction(double mu) { settings.grain_contact.mu = mu; }
+    void set_velocity(std::size_t grain_id, const vec3& v) { grains.motion[grain_id].v = v; }
+    /// To be called after velocities were set by hand, so that the audit knows of their energy.
+    void count_initial_energy() { totals_.initial_energy = kinetic_energy(); }
+
+    /// Complete state, list order and reference positions included: a run that goes on from it has the same bits.
+    /// Rows are not part of it, because a step writes all of them before it reads any; events must have been taken.
+    template <class A>
+    void archive(A& a) {
+        place_all();
+        a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_rebuild_, estimate_due_);
+        a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
+        a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
+        a(slow_, slow_wall_, slow_of_, reference_, reference_turn_, needed_, wall_travel_);
+        if constexpr (breakable) a(fast_, fast_wall_, fast_of_, broken_);
+        loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
+        work_loads_.assign(loads_.size(), {});
+    }
+
+    // ---- what measurements read ----------------------------------------------------------------------------------
+
+    /// Calls f(row, i, j) for all listed contacts; body ids of i and j through grains.owner.
+    template <class F>
+    void each_contact(F&& f) const {
+        for (std::size_t k = 0; k < slow_.size(); ++k) f(slow_.rows[k], slow_.pairs[k]);
+        for (std::size_t k = 0; k < fast_.size(); ++k) f(fast_.rows[k], fast_.pairs[k]);
+    }
+    /// A pebble at the boundary: what touches it and the forces that it takes (N).
+    struct wall_row {
+        std::int32_t pebble = -1;
+        boundaries::touches touch;
+        vec3 force;          ///< on the pebble
+        double lateral = 0.0; ///< size of the lateral force (N)
+        std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
+
+        template <class A>
+        void archive(A& a) {
+            a(pebble);
+        }
+    };
+    template <class F>
+    void each_wall_row(F&& f) const {
+        for (const wall_row& w : slow_wall_) f(w);
+        for (const wall_row& w : fast_wall_) f(w);
+    }
+    double kinetic_energy() const {
+        double e = settings.run.sum(grains.grain_count(), 0.0, [&](std::size_t g) {
+            if (!grains.is_clump(g)) return 0.0;
+            const grain& one = grains.grains[g];
+            return 0.5 * grains.mass_of(one) * norm2(grains.motion[g].v) +
+                   rotational_energy(grains.turning[g].q, grains.turning[g].l, grains.inverse_inertia(one));
+        });
+        if constexpr (breakable)
+            for (std::int32_t p : broken_.balls) {
+                const body_motion& m = grains.motion[ball(p)];
+                e += 0.5 * (grains.ball_mass(at(p)) * norm2(m.v) + grains.ball_inertia(at(p)) * norm2(m.w));
+            }
+        return e;
+    }
+    /// Energy in contacts, facets and bonds (J).
+    double elastic_energy() const {
+        double e = 0.0;
+        const auto add = [&](const contact_list<history>& list) {
+            for (std::size_t k = 0; k < list.size(); ++k) {
+                if (list.bonded[k] != 0) continue;
+                const auto& pr = list.pairs[k];
+                const double d = norm(grains.position[at(pr.j)] - grains.position[at(pr.i)]);
+                const double ri = grains.radius[at(pr.i)], rj = grains.radius[at(pr.j)];
+                const history none{};
+                const history* h = &none;
+                if constexpr (contact_list<history>::remembers) h = &list.history[k];
+                e += settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
+            }
+        };
+        add(slow_), add(fast_);
+        each_wall_row([&](const wall_row& w) {
+            const double r = grains.radius[at(w.pebble)];
+            const double lateral = norm(boundaries::lateral_push(w.touch));
+            if (lateral > 0.0) e += settings.lateral_contact.stored({0, 0, 1, lateral, r, r}, {});
+            for (const boundaries::touch& t : w.touch)
+                if (t.facet < boundaries::first_lateral_facet)
+                    e += settings.platen_contact.stored({0, 0, 1, t.depth, r, r}, {});
+        });
+        if constexpr (breakable)
+            for (const auto& pool : broken_.pools)
+                for (std::size_t c = 0; c < pool.size(); ++c) e += pool.energy(c);
+        return e;
+    }
+    body_losses losses() const {
+        body_losses total;
+        for (const body_losses& l : grains.losses) total.friction += l.friction, total.damping += l.damping;
+        return total;
+    }
+    /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).
+    void place_all() {
+        settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
+            if (grains.is_clump(g)) place(g, 0);
+        });
+    }
+
+  private:
+    static constexpr std::int64_t step_interval = 50; ///< steps between estimates of the time step
+    static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+    std::size_t ball(std::int32_t pebble) const { return grains.grain_count() + at(pebble); }
+    bool has_light_bodies() const {
+        if constexpr (breakable) return !broken_.balls.empty();
+        return false;
+    }
+
+    // ---- forces ---------------------------------------------------------------------------------------------------
+
+    void evaluate(contact_list<history>& list, std::vector<wall_row>& wall, double h, double ahead) {
+        settings.run.for_each(list.size(), [&](std::size_t k) { evaluate_contact(list, k, h); });
+        settings.run.for_each(wall.size(), [&](std::size_t k) { evaluate_wall(wall[k], h, ahead); });
+    }
+
+    void evaluate_contact(contact_list<history>& list, std::size_t k, double h) {
+        force_row& row = list.rows[k];
+        if (list.bonded[k] != 0) return;
+        const auto i = at(list.pairs[k].i), j = at(list.pairs[k].j);
+        const vec3 d = grains.position[j] - grains.position[i];
+        const double ri = grains.radius[i], rj = grains.radius[j];
+        const double reach = ri + rj, distance2 = norm2(d);
+        history local{};
+        if constexpr (contact_list<history>::remembers) local = list.history[k];
+        if (distance2 >= reach * reach) {
+            if constexpr (!contact_list<history>::remembers) {
+                if (row.depth > 0.0) row = {};
+                return;
+            } else if (contact::is_resting(local)) {
+                if (row.depth > 0.0) row = {};
+                return;
+            }
+        }
+        const double distance = std::sqrt(distance2), depth = reach - distance;
+        const vec3 n = d / distance;
+        const vec3 point = grains.position[i] + (ri - 0.5 * depth) * n;
+        const body_motion& a = grains.motion[at(grains.owner[i])];
+        const body_motion& b = grains.motion[at(grains.owner[j])];
+        // relative motion of i against j over the last step, split by the normal of mid-step
+        const vec3 relative = a.v + cross(a.w, point - a.x) - b.v - cross(b.w, point - b.x);
+        const vec3 centres = b.v + cross(b.w, grains.position[j] - b.x) - a.v - cross(a.w, grains.position[i] - a.x);
+        const vec3 mid = d - (0.5 * h) * centres;
+        const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
+        const double spin = 0.5 * h * dot(a.w + b.w, n);
+        const auto answer = settings.grain_contact(contacts::overlap<double>{n.x, n.y, n.z, depth, ri, rj},
+                                                   contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, n)}, local, h);
+        row.force = {answer.fx, answer.fy, answer.fz};
+        row.point = point;
+        row.dissipated = answer.dissipated;
+        row.depth = depth > 0.0 ? depth : 0.0;
+        if constexpr (contact_list<history>::remembers) list.history[k] = local;
+    }
+
+    void evaluate_wall(wall_row& w, double h, double ahead) const {
+        const vec3& x = grains.position[at(w.pebble)];
+        const double r = grains.radius[at(w.pebble)];
+        w.touch = boundary.touch(x, r, ahead);
+        w.force = {}, w.lateral = 0.0, w.platen = {};
+        if (w.touch.size == 0) return;
+        // facets are frictionless: the law sees no tangential motion and keeps no history
+        const auto push = [&](const contact& law, double depth) {
+            history none{};
+            return -law(contacts::overlap<double>{0, 0, 1, depth, r, r}, contacts::motion<double>{}, none, h).fz;
+        };
+        const vec3 u = boundaries::lateral_push(w.touch);
+        const double way = norm(u);
+        if (way > 0.0) {
+            w.lateral = push(settings.lateral_contact, way);
+            w.force += (w.lateral / way) * u;
+        }
+        for (const boundaries::touch& t : w.touch)
+            if (t.facet < boundaries::first_lateral_facet) {
+                const double f = push(settings.platen_contact, t.depth);
+                w.platen[at(t.facet)] = f;
+                w.force += f * t.normal;
+            }
+    }
+
+    /// Adds what wall rows exert on facets, in order; names the facets that share a pebble if asked to.
+    void add_loads(const std::vector<wall_row>& wall, double share, std::vector<boundaries::facet_load>& loads,
+                   std::vector<boundaries::coupling>* couplings = nullptr) const {
+        for (const wall_row& w : wall) {
+            if (w.touch.size == 0) continue;
+            const double way = norm(boundaries::lateral_push(w.touch));
+            const double r = grains.radius[at(w.pebble)];
+            boundaries::sharing_matrix sharing{};
+            int lateral = 0;
+            if (couplings != nullptr && w.touch.size > 1) sharing = boundaries::sharing(w.touch);
+            std::array<const boundaries::touch*, 3> seen{};
+            for (const boundaries::touch& t : w.touch) {
+                const bool platen = t.facet < boundaries::first_lateral_facet;
+                const double f = platen ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
+                const double k = (platen ? settings.platen_contact : settings.lateral_contact)
+                                     .normal_stiffness({0, 0, 1, platen ? t.depth : way, r, r});
+                if (platen || couplings == nullptr || w.touch.size == 1) {
+                    loads[at(t.facet)].add(t, share * f, k);
+                    continue;
+                }
+                const auto i = static_cast<std::size_t>(lateral);
+                loads[at(t.facet)].add(t, share * f, k * sharing[i][i]);
+                for (std::size_t j = 0; j < i; ++j)
+                    couplings->push_back({seen[j]->facet, t.facet, k * sharing[i][j] * seen[j]->along * t.along});
+                seen[at(lateral++)] = &t;
+            }
+        }
+    }
+
+    struct load_sum {
+        vec3 force;
+        vec3 moment;
+        double dissipated = 0.0;
+    };
+    /// Sum of the rows of one body about its centre, in the order of the list. Friction losses are booked on side i.
+    load_sum sum_rows(const incidence& of, std::size_t body, const contact_list<history>& list,
+                      const std::vector<wall_row>& wall, const vec3& centre) const {
+        load_sum s;
+        const std::size_t contacts = list.size();
+        for (std::uint32_t entry : of.of(body)) {
+            const std::size_t r = entry >> 1;
+            if (r < contacts) {
+                const force_row& row = list.rows[r];
+                const vec3 f = (entry & 1U) != 0 ? -row.force : row.force;
+                s.force += f;
+                s.moment += cross(row.point - centre, f);
+                if ((entry & 1U) == 0) s.dissipated += row.dissipated;
+            } else {
+                const wall_row& w = wall[r - contacts];
+                s.force += w.force;
+                s.moment += cross(grains.position[at(w.pebble)] - centre, w.force);
+            }
+        }
+        return s;
+    }
+
+    // ---- integration ----------------------------------------------------------------------------------------------
+
+    /// Kick of a clump: loads over their spans, local damping on the total over `damped` seconds.
+    void kick_clump(std::size_t g, const load_sum& slow, double slow_span, const load_sum& fast, double fast_span,
+                    double damped) {
+        const grain& one = grains.grains[g];
+        body_motion& m = grains.motion[g];
+        clump_rotation& turn = grains.turning[g];
+        vec3 impulse = slow_span * slow.force + fast_span * fast.force;
+        vec3 twist = slow_span * slow.moment + fast_span * fast.moment;
+        vec3 df, dm;
+        if (damped > 0.0) {
+            df = damping_force(slow.force + fast.force, m.v, settings.damping);
+            const vec3 moment = rotate_back(turn.q, slow.moment + fast.moment);
+            dm = rotate(turn.q, damping_force(moment, rotate_back(turn.q, m.w), settings.damping));
+            impulse += damped * df;
+            twist += damped * dm;
+        }
+        const vec3 before = m.v, spin_before = m.w;
+        m.v += (1.0 / grains.mass_of(one)) * impulse;
+        turn.l += twist;
+        if (damped > 0.0) {
+            const vec3 spin_after = spin_of(turn.q, turn.l, grains.inverse_inertia(one));
+            grains.losses[g].damping -=
+                0.5 * damped * (dot(df, before + m.v) + dot(dm, spin_before + spin_after));
+        }
+        grains.losses[g].friction += slow.dissipated + fast.dissipated;
+    }
+    void drift_clump(std::size_t g, double h) {
+        body_motion& m = grains.motion[g];
+        clump_rotation& turn = grains.turning[g];
+        const turned next = advance_rotation(turn.q, turn.l, grains.inverse_inertia(grains.grains[g]), h);
+        m.x += h * m.v;
+        m.w = next.spin;
+        turn.q = next.q;
+        place(g, 1);
+    }
+    /// Places the pebbles of a clump that are in a list (needed 1) or those that are not (needed 0). The former are
+    /// placed in one place of the code only, so that output cannot change their last bit.
+    void place(std::size_t g, std::uint8_t needed) {
+        const grain& one = grains.grains[g];
+        const shape& s = grains.shape_of(one);
+        const mat3 turn = matrix(grains.turning[g].q);
+        for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
+            const std::size_t p = at(one.first) + k;
+            if (needed_[p] == needed) grains.position[p] = grains.motion[g].x + turn * s.pebbles[k].offset;
+        }
+    }
+    bool is_halo(std::size_t g) const {
+        if constexpr (breakable) return broken_.halo[g] != 0;
+        return false;
+    }
+
+    void integrate_clumps() {
+        settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
+            if (!grains.is_clump(g) || is_halo(g)) return;
+            kick_clump(g, sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x), dt_, {}, 0.0, dt_);
+            drift_clump(g, dt_);
+        });
+    }
+
+    /// Sub-steps of balls, clusters and the clumps that they touch. Fast forces at the start are already evaluated.
+    void advance_light() {
+        if constexpr (breakable) {
+            const double h = dt_ / fast_steps_;
+            std::fill(work_loads_.begin(), work_loads_.end(), boundaries::facet_load{});
+            for (int k = 0; k < fast_steps_; ++k) {
+                if (k > 0) evaluate(fast_, fast_wall_, h, k * h);
+                add_loads(fast_wall_, 1.0 / fast_steps_, work_loads_);
+                settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
+                    if (!grains.is_clump(g) || broken_.halo[g] == 0) return;
+                    const vec3 x = grains.motion[g].x;
+                    const load_sum fast = sum_rows(fast_of_, g, fast_, fast_wall_, x);
+                    if (k == 0)
+                        kick_clump(g, sum_rows(slow_of_, g, slow_, slow_wall_, x), dt_, fast, h, dt_);
+                    else
+                        kick_clump(g, {}, 0.0, fast, h, 0.0);
+                    drift_clump(g, h);
+                });
+                settings.run.for_each(broken_.balls.size(), [&](std::size_t b) {
+                    const std::int32_t p = broken_.balls[b];
+                    if (broken_.bonded[at(p)] == 0) advance_ball(at(p), h);
+                });
+                for (std::size_t s = 0; s < broken_.pools.size(); ++s) advance_clusters(s, h);
+                broken_.time = totals_.time + (k + 1) * h;
+            }
+        }
+    }
+
+    void advance_ball(std::size_t p, double h) {
+        const std::size_t b = ball(static_cast<std::int32_t>(p));
+        body_motion& m = grains.motion[b];
+        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, m.x);
+        const vec3 df = damping_force(s.force, m.v, settings.damping);
+        const vec3 dm = damping_force(s.moment, m.w, settings.damping);
+        const vec3 v = m.v, w = m.w;
+        m.v += (h / grains.ball_mass(p)) * (s.force + df);
+        m.w += (h / grains.ball_inertia(p)) * (s.moment + dm);
+        m.x += h * m.v;
+        grains.position[p] = m.x;
+        grains.losses[b].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + m.w));
+        grains.losses[b].friction += s.dissipated;
+    }
+
+    void advance_clusters(std::size_t which, double h) {
+        if constexpr (breakable) {
+            bonds::cluster_pool& pool = broken_.pools[which];
+            constexpr std::size_t lanes = bonds::cluster_pool::lanes;
+            const std::size_t n = pool.shape().size();
+            std::vector<std::vector<bonds::break_report>> reports(pool.batches());
+            settings.run.for_each(
+                pool.batches(),
+                [&](std::size_t batch) {
+                    std::array<bool, lanes> live{};
+                    for (std::size_t l = 0; l < lanes; ++l) {
+                        const std::size_t c = batch * lanes + l;
+                        live[l] = c < pool.size() && pool.intact_bonds(c) > 0;
+                    }
+                    if (std::none_of(live.begin(), live.end(), [](bool b) { return b; })) return;
+                    std::vector<bonds::ball_motion> balls(lanes * n);
+                    std::vector<bonds::pebble_load> load(lanes * n);
+                    std::vector<vec3> moved(lanes * n);
+                    std::array<std::size_t, lanes> first{};
+                    for (std::size_t l = 0; l < lanes; ++l) {
+                        if (!live[l]) continue;
+                        first[l] = at(grains.grains[at(broken_.members[which][batch * lanes + l])].first);
+                        for (std::size_t k = 0; k < n; ++k) {
+                            const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
+                            const body_motion& m = grains.motion[b];
+                            const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, m.x);
+                            balls[l * n + k] = {m.v, m.w};
+                            load[l * n + k] = {s.force, s.moment};
+                            grains.losses[b].friction += s.dissipated;
+                        }
+                    }
+                    const auto normal = [&](std::size_t l, std::size_t e) {
+                        const shape_bond& ends = pool.shape().ends[e];
+                        return unit(grains.position[first[l] + at(ends.b)] - grains.position[first[l] + at(ends.a)]);
+                    };
+                    const auto lost = pool.advance(batch, h, balls, load, moved, normal, reports[batch]);
+                    for (std::size_t l = 0; l < lanes; ++l) {
+                        if (!live[l]) continue;
+                        for (std::size_t k = 0; k < n; ++k) {
+                            const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
+                            body_motion& m = grains.motion[b];
+                            m.v = balls[l * n + k].velocity;
+                            m.w = balls[l * n + k].spin;
+                            m.x += moved[l * n + k];
+                            grains.position[first[l] + k] = m.x;
+                        }
+                        grains.losses[ball(static_cast<std::int32_t>(first[l]))].damping += lost[l];
+                    }
+                },
+                2);
+            for (const auto& batch : reports)
+                for (const bonds::break_report& r : batch) record_break(which, r);
+        }
+    }
+
+    // ---- breakage -------------------------------------------------------------------------------------------------
+
+    void record_break(std::size_t which, const bonds::break_report& r) {
+        if constexpr (breakable) {
+            const bonds::cluster_pool& pool = broken_.pools[which];
+            const std::int32_t g = broken_.members[which][at(r.cluster)];
+            const std::int32_t first = grains.grains[at(g)].first;
+            const shape_bond& ends = pool.shape().ends[at(r.bond)];
+            const pebble_pair pair{first + ends.a, first + ends.b};
+            const vec3 d = grains.position[at(pair.j)] - grains.position[at(pair.i)];
+            fracture_event e;
+            e.time = broken_.time;
+            e.mode = r.mode;
+            e.normal = unit(d);
+            e.position = grains.position[at(pair.i)] + grains.radius[at(pair.i)] * e.normal;
+            e.mother = g;
+            e.bond = r.bond;
+            e.normal_force = r.before.n;
+            e.shear_force = norm(r.before.v);
+            e.bending_moment = norm(r.before.mb);
+            e.twisting_moment = std::abs(r.before.mt);
+            e.energy = bonds::energy(pool.shape().bond[at(r.bond)], r.before);
+            broken_.events.push_back(e);
+            totals_.bond_dissipation += e.energy;
+            ++(r.mode == break_mode::tension ? totals_.broken_tension : totals_.broken_shear);
+            // the pair goes on as a frictional contact
+            const std::size_t k = fast_.find(pair);
+            if (k < fast_.size()) fast_.bonded[k] = 0;
+            update_fragments(which, r.cluster);
+            estimate_due_ = true; // a lighter piece may need a smaller sub-step
+        }
+    }
+
+    /// Connected pieces of a cluster, named by their smallest pebble.
+    void update_fragments(std::size_t which, std::int32_t cluster) {
+        if constexpr (breakable) {
+            const bonds::cluster_pool& pool = broken_.pools[which];
+            const std::int32_t first = grains.grains[at(broken_.members[which][at(cluster)])].first;
+            const std::size_t n = pool.shape().size();
+            for (std::size_t k = 0; k < n; ++k) broken_.fragment[at(first) + k] = first + static_cast<std::int32_t>(k);
+            bool changed = true;
+            while (changed) {
+                changed = false;
+                for (std::size_t e = 0; e < pool.bonds(); ++e) {
+                    if (!pool.is_intact(at(cluster), e)) continue;
+                    std::int32_t& a = broken_.fragment[at(first + pool.shape().ends[e].a)];
+                    std::int32_t& b = broken_.fragment[at(first + pool.shape().ends[e].b)];
+                    if (a != b) a = b = std::min(a, b), changed = true;
+                }
+            }
+            if (pool.intact_bonds(at(cluster)) == 0)
+                for (std::size_t k = 0; k < n; ++k) broken_.bonded[at(first) + k] = 0;
+        }
+    }
+
+    struct birth_certificate {
+        std::int32_t grain;
+        std::vector<bonds::state> born;
+    };
+
+    /// Looks at the criterion of every clump under the forces just evaluated, and solves the bonds of critical ones.
+    void mark_critical() {
+        if constexpr (breakable && has_criterion) {
+            critical_.assign(grains.grain_count(), 0);
+            settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
+                if (!grains.is_clump(g) || grains.shape_of(grains.grains[g]).bonds.empty()) return;
+                critical_[g] = settings.breakage.utilisation(load_of(g)) >= settings.replacement.trigger ? 1 : 0;
+            });
+            for (std::size_t g = 0; g < grains.grain_count(); ++g) {
+                if (critical_[g] == 0) continue;
+                const grain& one = grains.grains[g];
+                std::vector<bonds::pebble_load> load(grains.shape_of(one).pebbles.size());
+                each_row_of(g, [&](std::int32_t pebble, std::int32_t, const vec3& f, const vec3& point) {
+                    bonds::pebble_load& l = load[at(pebble - one.first)];
+                    l.force += f;
+                    l.moment += cross(point - grains.position[at(pebble)], f);
+                });
+                const clump_rotation& turn = grains.turning[g];
+                marked_.push_back({static_cast<std::int32_t>(g),
+                                   settings.replacement.born(broken_.pools[at(one.shape)].shape(), load, turn.q,
+                                                             grains.motion[g].w)});
+            }
+        }
+    }
+
+    /// f(pebble, neighbour, force, point) for every row of clump g; neighbour: body id, or -1 - facet.
+    template <class F>
+    void each_row_of(std::size_t g, F&& f) const {
+        const auto visit = [&](const incidence& of, const contact_list<history>& list, const std::vector<wall_row>& wall) {
+            for (std::uint32_t entry : of.of(g)) {
+                const std::size_t r = entry >> 1;
+                if (r < list.size()) {
+                    if (list.rows[r].depth == 0.0) continue;
+                    const bool second = (entry & 1U) != 0;
+                    const pebble_pair& p = list.pairs[r];
+                    f(second ? p.j : p.i, grains.owner[at(second ? p.i : p.j)],
+                      second ? -list.rows[r].force : list.rows[r].force, list.rows[r].point);
+                } else {
+                    const wall_row& w = wall[r - list.size()];
+                    const double way = norm(boundaries::lateral_push(w.touch));
+                    for (const boundaries::touch& t : w.touch) {
+                        const bool platen = t.facet < boundaries::first_lateral_facet;
+                        const double size = platen ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
+                        f(w.pebble, -1 - t.facet, size * t.normal,
+                          grains.position[at(w.pebble)] - grains.radius[at(w.pebble)] * t.normal);
+                    }
+                }
+            }
+        };
+        visit(slow_of_, slow_, slow_wall_);
+        if constexpr (breakable)
+            if (has_light_bodies()) visit(fast_of_, fast_, fast_wall_);
+    }
+
+    /// What a criterion may ask of a clump: the largest resultant over its neighbours and its mean stress.
+    criteria::grain_load load_of(std::size_t g) const {
+        const shape& s = grains.shape_of(grains.grains[g]);
+        criteria::grain_load load;
+        load.diameter = s.diameter;
+        load.volume = s.volume;
+        load.grain = static_cast<std::int64_t>(g);
+        const bool wants_stress = criteria::contains(criteria::needs_of(settings.breakage), criteria::needs::stress);
+        struct neighbour {
+            std::int32_t id;
+            vec3 force;
+        };
+        std::array<neighbour, 64> around;
+        std::size_t count = 0;
+        each_row_of(g, [&](std::int32_t, std::int32_t id, const vec3& f, const vec3& point) {
+            std::size_t k = 0;
+            while (k < count && around[k].id != id) ++k;
+            if (k == count && count < around.size()) around[count++] = {id, {}};
+            if (k < around.size()) around[k].force += f;
+            // force into the grain at the arm x - X: f (x) arm is negative in compression
+            if (wants_stress) load.stress += (-1.0 / s.volume) * outer(f, point - grains.motion[g].x);
+        });
+        for (std::size_t k = 0; k < count; ++k) load.largest_force = std::max(load.largest_force, norm(around[k].force));
+        return load;
+    }
+
+    /// Gives the pebbles of critical clumps new owners. At the end of a step, so that the next evaluation of forces
+    /// already sees balls and bonds: no ball is integrated without its bonds.
+    void replace_marked() {
+        if constexpr (breakable) {
+            for (birth_certificate& m : marked_) {
+                const auto g = at(m.grain);
+                grain& one = grains.grains[g];
+                place(g, 0);
+                const vec3 spin = spin_of(grains.turning[g].q, grains.turning[g].l, grains.inverse_inertia(one));
+                bonds::cluster_pool& pool = broken_.pools[at(one.shape)];
+                for (std::size_t k = 0; k < pool.shape().size(); ++k) {
+                    const std::size_t p = at(one.first) + k;
+                    const std::size_t b = ball(static_cast<std::int32_t>(p));
+                    const vec3 x = grains.position[p];
+                    grains.motion[b] = {x, grains.motion[g].v + cross(spin, x - grains.motion[g].x), spin};
+                    grains.owner[p] = static_cast<std::int32_t>(b);
+                    broken_.bonded[p] = 1;
+                    broken_.balls.push_back(static_cast<std::int32_t>(p));
+                }
+                one.cluster = static_cast<std::int32_t>(pool.add(m.born));
+                broken_.members[at(one.shape)].push_back(m.grain);
+                totals_.bond_dissipation -= pool.energy(at(one.cluster)); // born with energy that no one paid for
+                ++totals_.replaced;
+                must_rebuild_ = estimate_due_ = true;
+            }
+            if (!marked_.empty()) std::sort(broken_.balls.begin(), broken_.balls.end());
+            marked_.clear();
+        }
+    }
+
+    // ---- boundary -------------------------------------------------------------------------------------------------
+
+    void control(bool light) {
+        std::fill(loads_.begin(), loads_.end(), boundaries::facet_load{});
+        couplings_.clear();
+        add_loads(slow_wall_, 1.0, loads_, &couplings_);
+        if (light) add_loads(fast_wall_, 1.0, loads_, &couplings_);
+        old_speed_.resize(loads_.size());
+        for (std::size_t f = 0; f < loads_.size(); ++f) old_speed_[f] = boundary.velocity(static_cast<int>(f));
+        boundary.control(loads_, drives, dt_, couplings_);
+    }
+    void finish_boundary() {
+        // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
+        if (!has_light_bodies()) {
+            work_loads_ = loads_;
+        } else {
+            add_loads(slow_wall_, 1.0, work_loads_);
+        }
+        double work = 0.0;
+        for (std::size_t f = 0; f < work_loads_.size(); ++f)
+            work += work_loads_[f].force * 0.5 * (old_speed_[f] + boundary.velocity(static_cast<int>(f)));
+        totals_.boundary_work += work * dt_;
+        boundary.advance(dt_);
+        wall_travel_ += boundary.fastest() * dt_;
+    }
+
+    // ---- lists ----------------------------------------------------------------------------------------------------
+
+    /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since the
+    /// last rebuild against the skin, the walls' own travel included.
+    void check_displacements() {
+        const double bodies = settings.run.max(grains.grain_count(), 0.0, [&](std::size_t g) {
+            if (!grains.is_clump(g)) return 0.0;
+            const quaternion d = conjugate(reference_turn_[g]) * grains.turning[g].q;
+            const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
+            const double reach = grains.shape_of(grains.grains[g]).circumscribed_radius;
+            double moved = norm(grains.motion[g].x - reference_[g]) + reach * turned_by;
+            if (is_halo(g)) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
+            return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+        });
+        double largest = bodies;
+        if constexpr (breakable)
+            largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
+                const std::size_t b = ball(broken_.balls[k]);
+                const double moved =
+                    norm(grains.motion[b].x - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+            });
+        if (!std::isfinite(largest)) explain_nan();
+        if (2.0 * largest >= settings.skin || largest + wall_travel_ >= settings.skin) must_rebuild_ = true;
+    }
+
+    [[noreturn]] void explain_nan() const {
+        for (std::size_t b = 0; b < grains.motion.size(); ++b)
+            if (!is_finite(grains.motion[b].x) || !is_finite(grains.motion[b].v))
+                throw run_error({fmt::format("the motion of body {} is not a finite number", b),
+                                 b < grains.grain_count() ? fmt::format("grain {}", b)
+                                                          : fmt::format("ball {}", b - grains.grain_count()),
+                                 fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time),
+                                 "forces grew without bound: the time step is too large for a contact or a bond, or two "
+                                 "centres passed each other",
+                                 "lower `safety` of the time step, the loading rate or the stress"});
+        throw run_error({"a displacement is not a finite number", "unknown body",
+                         fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time), "unstable time step",
+                         "lower `safety` of the time step"});
+    }
+
+    /// Finds all pairs within the skin: first bodies by their bounding spheres, then pebbles. Histories carry over.
+    void rebuild() {
+        place_all();
+        const std::size_t ng = grains.grain_count();
+        std::vector<searches::sphere> spheres;
+        for (std::size_t g = 0; g < ng; ++g)
+            if (grains.is_clump(g))
+                spheres.push_back({grains.motion[g].x, grains.shape_of(grains.grains[g]).circumscribed_radius,
+                                   static_cast<std::int32_t>(g)});
+        if constexpr (breakable)
+            for (std::int32_t p : broken_.balls)
+                spheres.push_back({grains.position[at(p)], grains.radius[at(p)], static_cast<std::int32_t>(ball(p))});
+        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, settings.skin);
+
+        constexpr std::size_t chunk = 256;
+        const std::size_t chunks = (near.size() + chunk - 1) / chunk;
+        std::vector<std::array<std::vector<pebble_pair>, 2>> found(chunks);
+        settings.run.for_each(
+            chunks,
+            [&](std::size_t c) {
+                for (std::size_t k = c * chunk; k < std::min(near.size(), (c + 1) * chunk); ++k) {
+                    const searches::sphere& a = spheres[at(near[k].first)];
+                    const searches::sphere& b = spheres[at(near[k].second)];
+                    const bool light = at(a.id) >= ng || at(b.id) >= ng;
+                    pebble_pairs(a, b, found[c][light ? 1 : 0]);
+                }
+            },
+            2);
+        contact_list<history> slow, fast;
+        for (const auto& part : found) {
+            slow.pairs.insert(slow.pairs.end(), part[0].begin(), part[0].end());
+            fast.pairs.insert(fast.pairs.end(), part[1].begin(), part[1].end());
+        }
+        for (contact_list<history>* list : {&slow, &fast}) {
+            std::sort(list->pairs.begin(), list->pairs.end());
+            list->resize_rows();
+            for (std::size_t k = 0; k < list->size(); ++k) {
+                if constexpr (contact_list<history>::remembers) {
+                    for (const contact_list<history>* old : {&slow_, &fast_}) {
+                        const std::size_t was = old->find(list->pairs[k]);
+                        if (was < old->size()) list->history[k] = old->history[was];
+                    }
+                }
+                if constexpr (breakable) list->bonded[k] = is_bonded(list->pairs[k]) ? 1 : 0;
+            }
+        }
+        slow_ = std::move(slow);
+        fast_ = std::move(fast);
+
+        list_walls();
+        index_rows();
+        reference_.resize(grains.motion.size());
+        for (std::size_t b = 0; b < grains.motion.size(); ++b) reference_[b] = grains.motion[b].x;
+        reference_turn_.resize(ng);
+        for (std::size_t g = 0; g < ng; ++g) reference_turn_[g] = grains.turning[g].q;
+        wall_travel_ = 0.0;
+        work_loads_.assign(loads_.size(), {});
+        must_rebuild_ = false;
+        ++totals_.rebuilds;
+    }
+
+    void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::vector<pebble_pair>& out) const {
+        const auto range = [&](const searches::sphere& s) {
+            const std::size_t ng = grains.grain_count();
+            if (at(s.id) >= ng) return std::pair{at(s.id) - ng, at(s.id) - ng + 1};
+            const grain& g = grains.grains[at(s.id)];
+            return std::pair{at(g.first), at(g.first) + grains.shape_of(g).pebbles.size()};
+        };
+        const auto [a0, a1] = range(a);
+        const auto [b0, b1] = range(b);
+        for (std::size_t i = a0; i < a1; ++i) {
+            const searches::sphere pi{grains.position[i], grains.radius[i]};
+            if (!searches::within(pi, b, settings.skin)) continue;
+            for (std::size_t j = b0; j < b1; ++j)
+                if (searches::within(pi, {grains.position[j], grains.radius[j]}, settings.skin))
+                    out.push_back({static_cast<std::int32_t>(std::min(i, j)), static_cast<std::int32_t>(std::max(i, j))});
+        }
+    }
+
+    bool is_bonded(const pebble_pair& p) const {
+        if constexpr (breakable) {
+            if (grains.mother[at(p.i)] != grains.mother[at(p.j)]) return false;
+            const grain& g = grains.grains[at(grains.mother[at(p.i)])];
+            if (g.cluster < 0) return false;
+            const bonds::cluster_pool& pool = broken_.pools[at(g.shape)];
+            for (std::size_t e = 0; e < pool.bonds(); ++e)
+                if (g.first + pool.shape().ends[e].a == p.i && g.first + pool.shape().ends[e].b == p.j)
+                    return pool.is_intact(at(g.cluster), e);
+        }
+        return false;
+    }
+
+    void list_walls() {
+        slow_wall_.clear(), fast_wall_.clear();
+        for (std::size_t g = 0; g < grains.grain_count(); ++g) {
+            const grain& one = grains.grains[g];
+            const shape& s = grains.shape_of(one);
+            const bool clump = grains.is_clump(g);
+            if (clump && !boundary.near(grains.motion[g].x, s.circumscribed_radius + settings.skin)) continue;
+            for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
+                const std::size_t p = at(one.first) + k;
+                if (!boundary.near(grains.position[p], grains.radius[p] + settings.skin)) continue;
+                wall_row w;
+                w.pebble = static_cast<std::int32_t>(p);
+                (clump ? slow_wall_ : fast_wall_).push_back(w);
+            }
+        }
+    }
+
+    void index_rows() {
+        const auto rows = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
+            return [&](auto&& f) {
+                for (std::size_t k = 0; k < list.size(); ++k) {
+                    f(k, 0U, grains.owner[at(list.pairs[k].i)]);
+                    f(k, 1U, grains.owner[at(list.pairs[k].j)]);
+                }
+                for (std::size_t k = 0; k < wall.size(); ++k) f(list.size() + k, 0U, grains.owner[at(wall[k].pebble)]);
+            };
+        };
+        slow_of_.build(grains.grain_count(), rows(slow_, slow_wall_));
+        needed_.assign(grains.pebble_count(), 0);
+        const auto need = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
+            for (const pebble_pair& p : list.pairs) needed_[at(p.i)] = needed_[at(p.j)] = 1;
+            for (const wall_row& w : wall) needed_[at(w.pebble)] = 1;
+        };
+        need(slow_, slow_wall_);
+        if constexpr (breakable) {
+            fast_of_.build(grains.motion.size(), rows(fast_, fast_wall_));
+            need(fast_, fast_wall_);
+            for (std::size_t g = 0; g < grains.grain_count(); ++g)
+                broken_.halo[g] = grains.is_clump(g) && !fast_of_.of(g).empty() ? 1 : 0;
+        }
+    }
+
+    // ---- time step ------------------------------------------------------------------------------------------------
+
+    /// dt = safety * sqrt(m/k) over clumps and their present contacts, at most as large as three contacts would allow.
+    /// Light bodies do not shrink it: they set the number of sub-steps.
+    void estimate_step(bool first) {
+        // from the present positions, not from what an earlier step left behind: a restart must see the same
+        for (std::vector<wall_row>* wall : {&slow_wall_, &fast_wall_})
+            settings.run.for_each(wall->size(), [&](std::size_t k) {
+                wall_row& w = (*wall)[k];
+                w.touch = boundary.touch(grains.position[at(w.pebble)], grains.radius[at(w.pebble)]);
+            });
+        const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
+        const double k_typical = (settings.grain_contact.normal_stiffness(typical) +
+                                  2.0 * settings.grain_contact.shear_stiffness(typical)) /
+                                 3.0;
+        double limit = settings.safety * std::sqrt(smallest_mass_ / (3.0 * k_typical));
+        limit = -settings.run.max(grains.grain_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
+            if (!grains.is_clump(g)) return -std::numeric_limits<double>::infinity();
+            const grain& one = grains.grains[g];
+            stiffness_sum k(matrix(grains.turning[g].q));
+            add_stiffness(k, slow_of_, g, slow_, slow_wall_, grains.motion[g].x);
+            if constexpr (breakable) add_stiffness(k, fast_of_, g, fast_, fast_wall_, grains.motion[g].x);
+            return -k.time_step(grains.mass_of(one), grains.density * grains.shape_of(one).inertia_per_density,
+                                settings.safety);
+        });
+        // grow slowly: contacts that are about to form are not in the sum yet
+        dt_ = first ? limit : std::min(limit, 1.02 * dt_);
+        if constexpr (breakable) estimate_substeps();
+        estimate_due_ = false;
+    }
+
+    void add_stiffness(stiffness_sum& k, const incidence& of, std::size_t body, const contact_list<history>& list,
+                       const std::vector<wall_row>& wall, const vec3& centre) const {
+        for (std::uint32_t entry : of.of(body)) {
+            const std::size_t r = entry >> 1;
+            if (r < list.size()) {
+                const auto& pr = list.pairs[r];
+                const vec3 d = grains.position[at(pr.j)] - grains.position[at(pr.i)];
+                const double ri = grains.radius[at(pr.i)], rj = grains.radius[at(pr.j)], distance = norm(d);
+                if (list.bonded[r] != 0 || distance >= ri + rj) continue;
+                const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
+                const vec3 n = d / distance;
+                k.add(n, settings.grain_contact.normal_stiffness(o), settings.grain_contact.shear_stiffness(o),
+                      grains.position[at(pr.i)] + (ri - 0.5 * o.depth) * n - centre);
+            } else {
+                const wall_row& w = wall[r - list.size()];
+                const double rp = grains.radius[at(w.pebble)];
+                for (const boundaries::touch& t : w.touch) {
+                    const contacts::overlap<double> o{0, 0, 1, t.depth, rp, rp};
+                    const contact& law =
+                        t.facet < boundaries::first_lateral_facet ? settings.platen_contact : settings.lateral_contact;
+                    k.add(t.normal, law.normal_stiffness(o), 0.0, grains.position[at(w.pebble)] - rp * t.normal - centre);
+                }
+            }
+        }
+    }
+
+    /// Sub-steps of light bodies: the smallest limit over fragments, each with its own mass and external contacts.
+    void estimate_substeps() {
+        if constexpr (breakable) {
+            double limit = dt_;
+            std::size_t k = 0;
+            while (k < broken_.balls.size()) {
+                // the balls of one cluster are consecutive; pieces of it are looked at one by one
+                const std::int32_t g = grains.mother[at(broken_.balls[k])];
+                std::size_t end = k;
+                while (end < broken_.balls.size() && grains.mother[at(broken_.balls[end])] == g) ++end;
+                for (std::size_t a = k; a < end; ++a) {
+                    const std::int32_t piece = broken_.fragment[at(broken_.balls[a])];
+                    if (piece != broken_.balls[a]) continue;
+                    limit = std::min(limit, fragment_limit(piece, k, end));
+                }
+                k = end;
+            }
+            fast_steps_ = std::max(1, static_cast<int>(std::ceil(dt_ / limit - 1e-9)));
+        }
+    }
+    double fragment_limit(std::int32_t piece, std::size_t begin, std::size_t end) const {
+        if constexpr (breakable) {
+            double mass = 0.0;
+            vec3 centre;
+            for (std::size_t a = begin; a < end; ++a) {
+                const auto p = at(broken_.balls[a]);
+                if (broken_.fragment[p] != piece) continue;
+                mass += grains.ball_mass(p);
+                centre += grains.ball_mass(p) * grains.position[p];
+            }
+            centre = centre / mass;
+            stiffness_sum k(mat3::identity());
+            mat3 tensor;
+            for (std::size_t a = begin; a < end; ++a) {
+                const auto p = at(broken_.balls[a]);
+                if (broken_.fragment[p] != piece) continue;
+                const vec3 arm = grains.position[p] - centre;
+                const double m = grains.ball_mass(p);
+                tensor += (grains.ball_inertia(p) + m * norm2(arm)) * mat3::identity() + (-m) * outer(arm, arm);
+                add_stiffness(k, fast_of_, ball(broken_.balls[a]), fast_, fast_wall_, centre);
+            }
+            return k.time_step(mass, {tensor(0, 0), tensor(1, 1), tensor(2, 2)}, settings.safety);
+        }
+        return dt_;
+    }
+
+    // ---- state ----------------------------------------------------------------------------------------------------
+
+    contact_list<history> slow_; ///< clump against clump
+    contact_list<history> fast_; ///< at least one ball
+    std::vector<wall_row> slow_wall_, fast_wall_;
+    incidence slow_of_, fast_of_;
+    std::vector<vec3> reference_;           ///< per body: centre at the last rebuild
+    std::vector<quaternion> reference_turn_; ///< per grain
+    std::vector<std::uint8_t> needed_;      ///< per pebble: in a list, so placed in every step
+    std::vector<boundaries::facet_load> loads_, work_loads_;
+    std::vector<boundaries::coupling> couplings_;
+    std::vector<double> old_speed_;
+    std::vector<std::uint8_t> critical_;
+    std::vector<birth_certificate> marked_; ///< empty between steps
+    std::conditional_t<breakable, breakage_state, nothing> broken_;
+    engine_totals totals_;
+    double dt_ = 0.0;
+    double smallest_mass_ = std::numeric_limits<double>::infinity();
+    double wall_travel_ = 0.0;
+    int fast_steps_ = 1;
+    bool must_rebuild_ = false;
+    bool estimate_due_ = false;
+};
+
+} // namespace clast

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A bundle of policies: one type that says what a simulator is made of.
+#pragma once
+
+#include <concepts>
+
+#include <clast/boundaries/concepts.hpp>
+#include <clast/boundaries/tiles.hpp>
+#include <clast/contacts/concepts.hpp>
+#include <clast/contacts/linear.hpp>
+#include <clast/criteria/concepts.hpp>
+#include <clast/criteria/nominal_force.hpp>
+#include <clast/criteria/none.hpp>
+#include <clast/replacements/concepts.hpp>
+#include <clast/replacements/modified.hpp>
+#include <clast/replacements/none.hpp>
+#include <clast/searches/cell_grid.hpp>
+#include <clast/searches/concepts.hpp>
+
+namespace clast {
+
+/// The paper's simulator: linear contacts, maximum-force criterion, MPRM, tile membrane. Derive from it and name what
+/// shall be different.
+struct triaxial_policies_default {
+    using contact = contacts::linear;
+    using breakage = criteria::nominal_force;
+    using replacement = replacements::modified;
+    using boundary = boundaries::tiles;
+    using search = searches::cell_grid;
+};
+
+/// A complete bundle. A policy that is missing or does not satisfy its own concept is named by the compiler.
+template <class P>
+concept triaxial_policies =
+    contacts::contact_law<typename P::contact> && replacements::replacement<typename P::replacement> &&
+    criteria::criterion<typename P::breakage> && boundaries::boundary<typename P::boundary> &&
+    searches::search<typename P::search>;
+
+} // namespace clast

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Stress from contact forces, and how far bodies are from equilibrium.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <clast/boundaries/touch.hpp>
+#include <clast/core/vector.hpp>
+
+namespace clast::measure {
+
+/// Calls f(force, branch, point) for every force that one body passes on to another or to a facet: force (N) on the
+/// second partner, branch (m) from the first centre to the second centre (or to the point on the facet). Bonds of
+/// clusters are such forces, too.
+template <class Engine, class F>
+void each_branch(const Engine& e, F&& f) {
+    const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+    const auto& s = e.grains;
+    e.each_contact([&](const auto& row, const auto& pair) {
+        if (row.depth == 0.0) return;
+        const vec3 branch = s.motion[at(s.owner[at(pair.j)])].x - s.motion[at(s.owner[at(pair.i)])].x;
+        f(-row.force, branch, row.point);
+    });
+    e.each_wall_row([&](const auto& w) {
+        const double way = norm(boundaries::lateral_push(w.touch));
+        const std::size_t p = at(w.pebble);
+        for (const boundaries::touch& t : w.touch) {
+            const double size =
+                t.facet < boundaries::first_lateral_facet ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
+            const vec3 point = s.position[p] - s.radius[p] * t.normal;
+            f(-size * t.normal, point - s.motion[at(s.owner[p])].x, point);
+        }
+    });
+    if constexpr (Engine::breakable) {
+        const auto& broken = e.breakage();
+        for (std::size_t k = 0; k < broken.pools.size(); ++k) {
+            const auto& pool = broken.pools[k];
+            for (std::size_t c = 0; c < pool.size(); ++c)
+                for (std::size_t b = 0; b < pool.bonds(); ++b) {
+                    if (!pool.is_intact(c, b)) continue;
+                    const std::size_t first = at(s.grains[at(broken.members[k][c])].first);
+                    const std::size_t i = first + at(pool.shape().ends[b].a), j = first + at(pool.shape().ends[b].b);
+                    const vec3 d = s.position[j] - s.position[i];
+                    const auto bond = pool.get(c, b);
+                    f(-(bond.n * unit(d) + bond.v), d, s.position[i] + s.radius[i] * unit(d));
+                }
+        }
+    }
+}
+
+/// Love-Weber stress (Pa, compression positive) over a volume (m^3): (1/V) sum f (x) l over all branches.
+template <class Engine>
+mat3 love_weber(const Engine& e, double volume) {
+    mat3 sum;
+    each_branch(e, [&](const vec3& force, const vec3& branch, const vec3&) { sum += outer(force, branch); });
+    return (1.0 / volume) * sum;
+}
+
+/// Mean stress p' (Pa) in a measurement sphere: the branches whose contact point lies inside.
+template <class Engine>
+double mean_stress_in_sphere(const Engine& e, const vec3& centre, double radius) {
+    double sum = 0.0;
+    each_branch(e, [&](const vec3& force, const vec3& branch, const vec3& point) {
+        if (norm2(point - centre) < radius * radius) sum += dot(force, branch);
+    });
+    return sum / (4.0 * std::numbers::pi * radius * radius * radius); // trace / 3 over 4/3 pi R^3
+}
+
+/// How far from rest, how connected, how deep.
+struct contact_state {
+    double unbalanced_ratio = 0.0;   ///< max |F_unbalanced| over bodies / mean over bodies of sum |F_contact|
+    double mean_contact_force = 0.0; ///< N, over touching contacts, facets included
+    double coordination = 0.0;       ///< touching neighbours per body
+    double max_overlap_over_r = 0.0; ///< of the smaller pebble
+    std::int64_t contacts = 0;       ///< touching pebble pairs
+    std::int32_t deepest_i = -1;     ///< pebbles of the deepest overlap
+    std::int32_t deepest_j = -1;     ///< -1: a facet
+};
+
+/// Bodies here are clumps and fragments (bonded balls count as one).
+template <class Engine>
+contact_state contacts_of(const Engine& e) {
+    const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+    const auto& s = e.grains;
+    const auto piece = [&](std::int32_t pebble) {
+        const std::int32_t owner = s.owner[at(pebble)];
+        if constexpr (Engine::breakable)
+            if (at(owner) >= s.grain_count()) return s.grain_count() + at(e.breakage().fragment[at(pebble)]);
+        return at(owner);
+    };
+    std::vector<vec3> net(s.motion.size());
+    std::vector<double> sum(s.motion.size(), 0.0);
+    std::vector<std::pair<std::size_t, std::size_t>> neighbours;
+    contact_state c;
+    double forces = 0.0;
+    std::int64_t count = 0;
+    e.each_contact([&](const auto& row, const auto& pair) {
+        if (row.depth == 0.0) return;
+        const std::size_t a = piece(pair.i), b = piece(pair.j);
+        const double size = norm(row.force);
+        net[a] += row.force, net[b] -= row.force;
+        sum[a] += size, sum[b] += size;
+        forces += size, ++count, ++c.contacts;
+        if (a != b) neighbours.emplace_back(std::min(a, b), std::max(a, b));
+        const double over = row.depth / std::min(s.radius[at(pair.i)], s.radius[at(pair.j)]);
+        if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = pair.i, c.deepest_j = pair.j;
+    });
+    e.each_wall_row([&](const auto& w) {
+        if (w.touch.size == 0) return;
+        const std::size_t a = piece(w.pebble);
+        const double size = norm(w.force);
+        net[a] += w.force, sum[a] += size;
+        forces += size, ++count;
+        const double over = norm(boundaries::lateral_push(w.touch)) / s.radius[at(w.pebble)];
+        if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = w.pebble, c.deepest_j = -1;
+    });
+    double largest = 0.0, total = 0.0;
+    std::size_t bodies = 0;
+    const auto body = [&](std::size_t b) {
+        largest = std::max(largest, norm(net[b]));
+        total += sum[b];
+        ++bodies;
+    };
+    for (std::size_t g = 0; g < s.grain_count(); ++g)
+        if (s.is_clump(g)) body(g);
+    if constexpr (Engine::breakable)
+        for (std::int32_t p : e.breakage().balls)
+            if (e.breakage().fragment[at(p)] == p) body(s.grain_count() + at(p));
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    c.unbalanced_ratio = total > 0.0 ? largest / (total / static_cast<double>(bodies)) : 0.0;
+    c.mean_contact_force = count > 0 ? forces / static_cast<double>(count) : 0.0;
+    c.coordination = bodies > 0 ? 2.0 * static_cast<double>(neighbours.size()) / static_cast<double>(bodies) : 0.0;
+    return c;
+}
+
+} // namespace clast::measure

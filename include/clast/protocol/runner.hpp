@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: MIT
+// Runs a protocol: drives the engine through its stages, measures, and says why where it cannot go on.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <clast/core/errors.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/measure/sample.hpp>
+#include <clast/measure/stress.hpp>
+#include <clast/protocol/stage.hpp>
+
+namespace clast {
+
+/// What a runner reports to. Derive and override what you need; called once in many steps, never per contact.
+class observer {
+  public:
+    virtual ~observer() = default;
+    virtual void on_row(const sample&) {}                           ///< one row of the series
+    virtual void on_events(const std::vector<fracture_event>&) {}   ///< bonds broken since the last call
+    virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
+    virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
+    virtual bool stop_requested() { return false; } ///< true: run() returns at the next look
+};
+
+/// Sizes and rates of a test. SI units.
+struct test_plan {
+    std::vector<stage> stages;
+    double radius = 0.0;          ///< target apothem of the specimen (m)
+    double height = 0.0;          ///< target height (m)
+    double grain_diameter = 0.02; ///< d50 of Eq. 2 (m)
+    double confining = 2e6;       ///< scale of stresses: target of the consolidation (Pa)
+    double inertial_number = 1e-4; ///< largest during loading (paper: 1e-4)
+    double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
+    double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
+    double servo_gain = 0.5;
+    double row_strain = 5e-4;     ///< axial strain between rows while strain is the clock
+    std::int64_t row_steps = 2000; ///< steps between rows otherwise, and at most in any stage (x 10)
+    std::int64_t look_every = 100; ///< steps between looks at conditions, escapes and requests to stop
+};
+
+/// Runs the stages of a plan on an engine. State is complete and archived: saving, or not, changes no bit.
+template <triaxial_policies P>
+class runner {
+  public:
+    using engine_type = engine<P>;
+    using boundary_type = typename P::boundary;
+    enum class outcome { finished, stopped };
+
+    engine_type& sim;
+    test_plan plan;
+
+    /// `membrane` makes the boundary of the test at the target size from present platen positions.
+    runner(engine_type& e, test_plan p, std::function<boundary_type(const boundary_type&)> membrane)
+        : sim(e), plan(std::move(p)), make_membrane_(std::move(membrane)) {
+        if (plan.stages.empty())
+            throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
+        friction_ = sim.settings.grain_contact.mu;
+        solid_volume_ = sim.grains.solid_volume();
+        reference_height_ = sim.boundary.height();
+        reference_volume_ = sim.boundary.volume();
+    }
+
+    /// Runs until the last stage ends (finished) or the observer asks to stop (stopped; run() again to go on).
+    outcome run(observer& watch) {
+        const auto began = std::chrono::steady_clock::now();
+        const double before = wall_time_;
+        const auto clock = [&] {
+            wall_time_ = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        };
+        while (stage_ < plan.stages.size()) {
+            if (!begun_) {
+                if (current().skip_if_relaxed && ended_by_itself_) {
+                    ++stage_;
+                    continue;
+                }
+                begin_stage();
+                watch.on_stage(current().name, true);
+                clock();
+                report(watch);
+            }
+            sim.step();
+            ++stage_steps_;
+            stage_time_ += sim.dt();
+            confining_now();
+            if (row_due()) {
+                clock();
+                report(watch);
+            }
+            if (stage_steps_ % plan.look_every != 0) continue;
+            clock();
+            look();
+            check_specimen();
+            const bool ended = current().end.met(view_);
+            const double part = current().end.progress(view_);
+            watch.on_progress(measure(), part, (static_cast<double>(stage_) + part) / static_cast<double>(plan.stages.size()));
+            if (ended)
+                end_stage(watch, true);
+            else
+                try_next_friction(watch);
+            if (watch.stop_requested()) {
+                flush_events(watch);
+                return outcome::stopped;
+            }
+        }
+        flush_events(watch);
+        return outcome::finished;
+    }
+
+    const std::string& stage_name() const { return plan.stages[std::min(stage_, plan.stages.size() - 1)].name; }
+    bool finished() const { return stage_ >= plan.stages.size(); }
+    double axial_strain() const { return 1.0 - sim.boundary.height() / reference_height_; }
+    double wall_time() const { return wall_time_; }
+
+    /// The state of the specimen now.
+    sample measure() const {
+        sample s;
+        const auto& b = sim.boundary;
+        s.time = sim.time();
+        s.stage = stage_name();
+        s.height = b.height();
+        s.volume = b.volume();
+        s.axial_strain = axial_strain();
+        s.volumetric_strain = 1.0 - s.volume / reference_volume_;
+        s.sigma_1 = b.axial_stress(sim.loads());
+        s.sigma_3 = b.lateral_stress(sim.loads());
+        s.p = (s.sigma_1 + 2.0 * s.sigma_3) / 3.0;
+        s.q = s.sigma_1 - s.sigma_3;
+        const mat3 lw = measure::love_weber(sim, s.volume);
+        s.sigma_1_love_weber = lw(2, 2);
+        s.sigma_3_love_weber = 0.5 * (lw(0, 0) + lw(1, 1));
+        s.void_ratio = (s.volume - solid_volume_) / solid_volume_;
+        s.porosity = 1.0 - solid_volume_ / s.volume;
+        const double sum = s.sigma_1 + s.sigma_3;
+        s.phi_mob_deg = sum > 0.0 ? std::asin(std::clamp(s.q / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
+        s.inertial_number = s.p > 0.0 ? std::abs(closing_speed()) / s.height * plan.grain_diameter /
+                                            std::sqrt(s.p / sim.grains.density)
+                                      : 0.0;
+        const measure::contact_state c = measure::contacts_of(sim);
+        s.unbalanced_ratio = c.unbalanced_ratio;
+        s.max_overlap_over_r = c.max_overlap_over_r;
+        s.coordination = c.coordination;
+        s.confining_error = error_count_ > 0 ? error_sum_ / static_cast<double>(error_count_) : 0.0;
+        const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, 0, 1, 1});
+        s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
+        const engine_totals& t = sim.totals();
+        s.replaced = t.replaced;
+        s.broken_tension = t.broken_tension;
+        s.broken_shear = t.broken_shear;
+        s.kinetic_energy = sim.kinetic_energy();
+        s.elastic_energy = sim.elastic_energy();
+        const body_losses lost = sim.losses();
+        s.boundary_work = t.boundary_work;
+        s.friction_dissipation = lost.friction;
+        s.damping_dissipation = lost.damping;
+        s.bond_dissipation = t.bond_dissipation;
+        const double residual = t.boundary_work + t.initial_energy - s.kinetic_energy - s.elastic_energy - lost.friction -
+                                lost.damping - t.bond_dissipation;
+        const double work = std::max(std::abs(t.boundary_work - stage_work_), 1e-3 * std::abs(t.boundary_work));
+        s.energy_residual = work > 0.0 ? (residual - stage_residual_) / work : 0.0;
+        s.steps = t.steps;
+        s.dt = sim.dt();
+        s.wall_time = wall_time_;
+        return s;
+    }
+
+    /// Pebbles for pictures; displacement counts from the reference state (0 before it).
+    std::vector<pebble_view> pebbles() {
+        sim.place_all();
+        const specimen& s = sim.grains;
+        std::vector<pebble_view> out(s.pebble_count());
+        for (std::size_t p = 0; p < out.size(); ++p) {
+            const auto g = static_cast<std::size_t>(s.mother[p]);
+            const auto owner = static_cast<std::size_t>(s.owner[p]);
+            pebble_view& v = out[p];
+            v.position = s.position[p];
+            v.radius = s.radius[p];
+            v.grain = s.mother[p];
+            v.fragment = s.grains[g].first;
+            v.velocity = s.motion[owner].v + cross(s.motion[owner].w, s.position[p] - s.motion[owner].x);
+            if (!reference_.empty()) v.displacement = s.position[p] - reference_[p];
+            if constexpr (engine_type::breakable)
+                if (!s.is_clump(g)) {
+                    v.fragment = sim.breakage().fragment[p];
+                    const auto& pool = sim.breakage().pools[static_cast<std::size_t>(s.grains[g].shape)];
+                    const bool whole = pool.intact_bonds(static_cast<std::size_t>(s.grains[g].cluster)) ==
+                                       static_cast<std::int32_t>(pool.bonds());
+                    v.state = whole ? pebble_state::bonded : pebble_state::fragment;
+                }
+        }
+        return out;
+    }
+    std::vector<facet_view> facets() const { return sim.boundary.view(sim.loads()); }
+
+    template <class A>
+    void archive(A& a) {
+        sim.archive(a);
+        a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_residual_, friction_try_,
+          reference_height_, reference_volume_, reference_, start_size_, strain_rate_, error_sum_, error_count_, next_row_,
+          row_start_, wall_time_, smoothed_p_);
+    }
+
+  private:
+    const stage& current() const { return plan.stages[stage_]; }
+    double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
+    double closing_speed() const { return sim.boundary.velocity(0) + sim.boundary.velocity(1); }
+
+    void begin_stage() {
+        const stage& s = current();
+        begun_ = true;
+        ended_by_itself_ = false;
+        stage_steps_ = 0, stage_time_ = 0.0, friction_try_ = 0;
+        error_sum_ = 0.0, error_count_ = 0;
+        if (s.membrane_here) sim.set_boundary(make_membrane_(sim.boundary));
+        if (s.reference_here) {
+            reference_height_ = sim.boundary.height();
+            reference_volume_ = sim.boundary.volume();
+            sim.place_all();
+            reference_ = sim.grains.position;
+        }
+        sim.breakage_on = s.breakage;
+        sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
+        start_size_ = {sim.boundary.height(), apothem()};
+        const sample now = measure();
+        stage_work_ = now.boundary_work;
+        stage_residual_ = now.boundary_work + sim.totals().initial_energy - now.kinetic_energy - now.elastic_energy -
+                          now.friction_dissipation - now.damping_dissipation - now.bond_dissipation;
+        smoothed_p_ = std::max(now.p, 0.01 * plan.confining);
+        row_start_ = axial_strain();
+        next_row_ = 1;
+        view_ = {};
+        look();
+    }
+
+    void end_stage(observer& watch, bool by_itself) {
+        report(watch);
+        watch.on_stage(current().name, false);
+        ended_by_itself_ = by_itself;
+        begun_ = false;
+        ++stage_;
+    }
+
+    /// The next friction of the list once the specimen rests short of its goal; then the end of the patience.
+    void try_next_friction(observer& watch) {
+        const stage& s = current();
+        const bool at_rest = stage_steps_ > 2000 && view_.unbalanced_ratio < 1e-3;
+        const bool out_of_steps = stage_steps_ >= s.most_steps;
+        if (!s.then_friction.empty() || s.give_up_gently) {
+            const std::int64_t share = s.most_steps / static_cast<std::int64_t>(s.then_friction.size() + 1);
+            if (!at_rest && stage_steps_ < (friction_try_ + 1) * share) return;
+            if (friction_try_ < static_cast<std::int64_t>(s.then_friction.size())) {
+                sim.set_friction(s.then_friction[static_cast<std::size_t>(friction_try_++)]);
+                return;
+            }
+            if (s.give_up_gently) {
+                end_stage(watch, false);
+                return;
+            }
+        }
+        if (!out_of_steps) return;
+        const sample now = measure();
+        throw run_error({fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
+                         fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps),
+                         when(),
+                         fmt::format("unbalanced ratio {:.3g}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa), stress "
+                                     "errors {:.3g} (axial) and {:.3g} (confining)",
+                                     now.unbalanced_ratio, 1e-3 * now.q, 1e-3 * now.p, 1e-3 * view_.sphere_stress,
+                                     view_.axial_error, view_.confining_error),
+                         s.if_stuck});
+    }
+
+    std::string when() const {
+        return fmt::format("step {}, t = {:.6g} s, axial strain {:.4g} %", sim.totals().steps, sim.time(),
+                           100.0 * axial_strain());
+    }
+
+    double apothem() const { return sim.boundary.apothem(boundaries::first_lateral_facet); }
+
+    /// Refreshes the view that conditions see, and the drives that depend on it.
+    void look() {
+        const auto& b = sim.boundary;
+        const stage& s = current();
+        const double sigma_1 = b.axial_stress(sim.loads()), sigma_3 = b.lateral_stress(sim.loads());
+        view_.p = (sigma_1 + 2.0 * sigma_3) / 3.0;
+        view_.q = sigma_1 - sigma_3;
+        view_.axial_strain = axial_strain();
+        view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
+        view_.steps = stage_steps_;
+        view_.time = stage_time_;
+        const measure::contact_state c = measure::contacts_of(sim);
+        view_.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
+        view_.mean_contact_force = c.mean_contact_force;
+        deepest_ = c;
+        const double kinetic = sim.kinetic_energy(), elastic = sim.elastic_energy();
+        view_.kinetic_ratio = elastic > 0.0 ? kinetic / elastic : 1.0;
+        const double r = 0.7 * apothem(), h = b.height();
+        view_.sphere_stress = 0.0;
+        for (double z : {1.0 / 6.0, 0.5, 5.0 / 6.0})
+            view_.sphere_stress = std::max(
+                view_.sphere_stress,
+                std::abs(measure::mean_stress_in_sphere(sim, {0, 0, b.bottom() + z * h}, std::min(r, h / 6.0))));
+        view_.axial_error = s.axial.how == axis_drive::kind::stress ? std::abs(sigma_1 - s.axial.value) / s.axial.value : 0.0;
+        view_.confining_error =
+            s.lateral.how == axis_drive::kind::stress ? b.confining_error(sim.loads(), s.lateral.value) : 0.0;
+        view_.travel_left = 0.0;
+        if (s.axial.how == axis_drive::kind::reach)
+            view_.travel_left = std::max(view_.travel_left, left(h, start_size_[0], s.axial.value));
+        if (s.lateral.how == axis_drive::kind::reach)
+            view_.travel_left = std::max(view_.travel_left, left(apothem(), start_size_[1], s.lateral.value));
+        smoothed_p_ += 0.1 * (std::max(view_.p, 0.01 * plan.confining) - smoothed_p_);
+        drive(c.coordination);
+    }
+    static double left(double now, double start, double target) {
+        const double rest = start == target ? 0.0 : (now - target) / (start - target);
+        return rest > 1e-7 ? rest : 0.0;
+    }
+
+    /// Drives for the next steps, from the stage's axes and the state just seen.
+    void drive(double coordination) {
+        using mode = boundaries::drive::mode;
+        const stage& s = current();
+        const double shear_rate = rate_at(plan.inertial_number, plan.confining);
+        const double packing_rate =
+            coordination < 1.0 ? plan.packing_rate_before_contact * shear_rate
+                               : std::min(plan.packing_rate_before_contact * shear_rate,
+                                          rate_at(plan.packing_inertial_number, smoothed_p_));
+        const double servo_speed = 3.0 * shear_rate * plan.radius;
+        const double look_time = static_cast<double>(plan.look_every) * sim.dt();
+        const auto one = [&](const axis_drive& a, double size, double share, double start) {
+            boundaries::drive d;
+            d.gain = plan.servo_gain;
+            d.max_speed = servo_speed;
+            switch (a.how) {
+            case axis_drive::kind::hold: break;
+            case axis_drive::kind::rate: d.how = mode::velocity, d.value = share * a.value * size; break;
+            case axis_drive::kind::inertial:
+                d.how = mode::velocity;
+                d.value = std::copysign(share * size * rate_at(std::abs(a.value), smoothed_p_), a.value);
+                break;
+            case axis_drive::kind::stress: d.how = mode::servo, d.value = a.value; break;
+            case axis_drive::kind::reach: {
+                const double way = size - a.value;
+                if (way <= 1e-9 * start) break;
+                // in the free cloud walls keep the speed at which the grains were sent off; at the target they stop
+                const double speed = packing_rate * (coordination < 1.0 ? start : size);
+                d.how = mode::velocity;
+                d.value = share * std::min(speed, way / look_time);
+                break;
+            }
+            }
+            return d;
+        };
+        sim.drives.platens = one(s.axial, sim.boundary.height(), 0.5, start_size_[0]);
+        sim.drives.lateral = one(s.lateral, apothem(), 1.0, start_size_[1]);
+    }
+
+    void confining_now() {
+        const stage& s = current();
+        if (s.lateral.how != axis_drive::kind::stress) return;
+        error_sum_ += sim.boundary.confining_error(sim.loads(), s.lateral.value);
+        ++error_count_;
+    }
+
+    bool row_due() const {
+        const axis_drive::kind k = current().axial.how;
+        if (k == axis_drive::kind::inertial || k == axis_drive::kind::rate) {
+            const double done = std::abs(axial_strain() - row_start_);
+            return done >= static_cast<double>(next_row_) * plan.row_strain;
+        }
+        return stage_steps_ % plan.row_steps == 0;
+    }
+
+    void report(observer& watch) {
+        flush_events(watch);
+        watch.on_row(measure());
+        error_sum_ = 0.0, error_count_ = 0;
+        const double done = std::abs(axial_strain() - row_start_);
+        next_row_ = 1 + static_cast<std::int64_t>(done / plan.row_strain);
+    }
+    void flush_events(observer& watch) {
+        std::vector<fracture_event> events = sim.take_events();
+        if (events.empty()) return;
+        for (fracture_event& e : events) e.axial_strain = axial_strain();
+        watch.on_events(events);
+    }
+
+    /// Stops the run where the specimen is no longer one.
+    void check_specimen() {
+        const specimen& s = sim.grains;
+        for (std::size_t p = 0; p < s.pebble_count(); ++p) {
+            const auto owner = static_cast<std::size_t>(s.owner[p]);
+            // clumps are looked at by their centre, balls by their own
+            const bool clump = owner < s.grain_count();
+            if (clump && static_cast<std::int32_t>(p) != s.grains[owner].first) continue;
+            if (!sim.boundary.outside(s.motion[owner].x, s.radius[p])) continue;
+            const vec3 x = s.motion[owner].x;
+            throw run_error({fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
+                             fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
+                             when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
+                             "use more rings or tiles, a lower stress or a smaller inertial number"});
+        }
+        if (deepest_.max_overlap_over_r >= 1.0)
+            throw run_error({fmt::format("pebbles {} and {} overlap by {:.2f} of the smaller radius", deepest_.deepest_i,
+                                         deepest_.deepest_j, deepest_.max_overlap_over_r),
+                             fmt::format("stage '{}'", current().name), when(),
+                             "contacts are soft against the stress: two centres are about to pass each other",
+                             "lower the stress or raise the contact stiffness"});
+    }
+
+    std::function<boundary_type(const boundary_type&)> make_membrane_;
+    std::size_t stage_ = 0;
+    bool begun_ = false;
+    bool ended_by_itself_ = false;
+    std::int64_t stage_steps_ = 0;
+    double stage_time_ = 0.0, stage_work_ = 0.0, stage_residual_ = 0.0;
+    std::int64_t friction_try_ = 0;
+    double reference_height_ = 0.0, reference_volume_ = 0.0;
+    std::vector<vec3> reference_;
+    std::array<double, 2> start_size_{};
+    double strain_rate_ = 0.0;
+    double error_sum_ = 0.0;
+    std::int64_t error_count_ = 0;
+    std::int64_t next_row_ = 1;
+    double row_start_ = 0.0;
+    double wall_time_ = 0.0;
+    double smoothed_p_ = 0.0;
+    double friction_ = 0.0, solid_volume_ = 0.0;
+    stage_view view_;
+    measure::contact_state deepest_;
+};
+
+} // namespace clast

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// A test protocol as data: a list of stages, each with what drives the two axes and when it ends.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <clast/core/quantity.hpp>
+
+namespace clast {
+
+/// What one axis of the specimen (axial: both platens; lateral: the wall) does during a stage.
+struct axis_drive {
+    enum class kind {
+        hold,     ///< stay
+        rate,     ///< strain rate `value` (1/s), compression positive
+        inertial, ///< strain rate at which the inertial number (paper Eq. 2) is |value|; negative: extension
+        stress,   ///< servo to the stress `value` (Pa)
+        reach     ///< move to the size `value` (m: height, or apothem) at the stage's packing rate, then hold
+    };
+    kind how = kind::hold;
+    double value = 0.0;
+};
+
+namespace drive_by {
+inline axis_drive hold() { return {}; }
+inline axis_drive strain_rate(quantities::rate rate) { return {axis_drive::kind::rate, rate.si()}; }
+inline axis_drive inertial_number(double i) { return {axis_drive::kind::inertial, i}; }
+inline axis_drive stress(quantities::stress s) { return {axis_drive::kind::stress, s.si()}; }
+inline axis_drive size(quantities::length l) { return {axis_drive::kind::reach, l.si()}; }
+} // namespace drive_by
+
+/// What a condition may look at; refreshed every few steps, never by the clock.
+struct stage_view {
+    double axial_strain = 0.0;      ///< since the reference state
+    double volumetric_strain = 0.0; ///< compression positive
+    double q = 0.0;                 ///< Pa
+    double p = 0.0;                 ///< Pa
+    double unbalanced_ratio = 1.0;
+    double sphere_stress = 0.0;      ///< largest |p'| in the three measurement spheres (Pa)
+    double mean_contact_force = 0.0; ///< N
+    double kinetic_ratio = 0.0;      ///< kinetic energy over elastic energy (1 where nothing is stored)
+    double axial_error = 0.0;        ///< |sigma_1 - target| / target under axial stress control
+    double confining_error = 0.0;    ///< |sigma_3 - target| / target under lateral stress control
+    double travel_left = 0.0;        ///< share of the way that `reach` axes still have to go, 1 to 0
+    std::int64_t steps = 0;          ///< in this stage
+    double time = 0.0;               ///< in this stage (s)
+};
+
+/// When a stage ends, in words and as a function; `progress` in [0, 1] feeds the progress bar.
+struct condition {
+    std::string text;
+    std::function<bool(const stage_view&)> met;
+    std::function<double(const stage_view&)> progress;
+};
+
+/// Both; progress of the slower.
+inline condition operator&&(condition a, condition b) {
+    return {a.text + " and " + b.text,
+            [a, b](const stage_view& v) { return a.met(v) && b.met(v); },
+            [a, b](const stage_view& v) { return std::min(a.progress(v), b.progress(v)); }};
+}
+/// Either; progress of the faster.
+inline condition operator||(condition a, condition b) {
+    return {a.text + " or " + b.text,
+            [a, b](const stage_view& v) { return a.met(v) || b.met(v); },
+            [a, b](const stage_view& v) { return std::max(a.progress(v), b.progress(v)); }};
+}
+
+/// Conditions in words of the field: `until::axial_strain(25 * percent)`.
+namespace until {
+namespace detail {
+/// Progress of a quantity that falls over decades towards a limit.
+inline double falling(double now, double limit) {
+    return now <= limit ? 1.0 : std::clamp(1.0 + std::log10(limit / now) / 4.0, 0.0, 0.99);
+}
+} // namespace detail
+inline condition axial_strain(quantities::ratio ratio) {
+    const double strain = ratio.si();
+    return {fmt::format("axial strain {:g} %", 100.0 * strain),
+            [strain](const stage_view& v) { return v.axial_strain >= strain; },
+            [strain](const stage_view& v) { return std::clamp(v.axial_strain / strain, 0.0, 1.0); }};
+}
+/// q falls to the given value or below, as in unloading.
+inline condition deviator_below(quantities::stress q) {
+    const double limit = q.si();
+    return {fmt::format("q <= {:g} kPa", 1e-3 * limit), [limit](const stage_view& v) { return v.q <= limit; },
+            [limit](const stage_view& v) { return detail::falling(v.q, limit); }};
+}
+/// Both `reach` axes have arrived.
+inline condition size_reached() {
+    return {"target size", [](const stage_view& v) { return v.travel_left <= 0.0; },
+            [](const stage_view& v) { return 1.0 - v.travel_left; }};
+}
+/// Largest unbalanced force over the mean sum of contact forces below the limit.
+inline condition unbalanced_below(double ratio) {
+    return {fmt::format("unbalanced ratio < {:g} %", 100.0 * ratio),
+            [ratio](const stage_view& v) { return v.unbalanced_ratio < ratio; },
+            [ratio](const stage_view& v) { return detail::falling(v.unbalanced_ratio, ratio); }};
+}
+/// Mean stress below the limit in all three measurement spheres (paper section 2.3: 1 kPa).
+inline condition spheres_below(quantities::stress p) {
+    const double limit = p.si();
+    return {fmt::format("p' < {:g} kPa in three spheres", 1e-3 * limit),
+            [limit](const stage_view& v) { return v.sphere_stress < limit; },
+            [limit](const stage_view& v) { return detail::falling(v.sphere_stress, limit); }};
+}
+/// No load worth the name: mean contact force below `force` and kinetic energy negligible. The way out where the
+/// unbalanced ratio becomes 0/0 in an unjammed specimen.
+inline condition unloaded(quantities::force force) {
+    const double limit = force.si();
+    return {fmt::format("mean contact force < {:g} N", limit),
+            [limit](const stage_view& v) { return v.mean_contact_force < limit && v.steps > 1000; },
+            [limit](const stage_view& v) { return detail::falling(v.mean_contact_force, limit); }};
+}
+/// Servo-controlled stresses within the tolerance of their targets.
+inline condition stresses_within(double tolerance) {
+    return {fmt::format("stress error < {:g} %", 100.0 * tolerance),
+            [tolerance](const stage_view& v) { return v.axial_error < tolerance && v.confining_error < tolerance; },
+            [tolerance](const stage_view& v) {
+                return detail::falling(std::max(v.axial_error, v.confining_error), tolerance);
+            }};
+}
+inline condition steps(std::int64_t n) {
+    return {fmt::format("{} steps", n), [n](const stage_view& v) { return v.steps >= n; },
+            [n](const stage_view& v) { return std::min(1.0, static_cast<double>(v.steps) / static_cast<double>(n)); }};
+}
+} // namespace until
+
+/// One stage of a test.
+struct stage {
+    std::string name;
+    axis_drive axial{};
+    axis_drive lateral{};
+    condition end;
+    std::int64_t most_steps = 2'000'000; ///< a stage that has not ended by then stops the run
+    bool breakage = true;                ///< whether clumps may be replaced in this stage
+    bool reference_here = false;         ///< strains, displacements and e0 count from the start of this stage
+    bool membrane_here = false;          ///< the preparation vessel becomes the membrane at the start of this stage
+    double friction = -1.0;              ///< pebble friction in this stage; negative: that of the material
+    /// Frictions to try one after the other where the specimen has come to rest short of `end`.
+    std::vector<double> then_friction{};
+    bool give_up_gently = false; ///< having tried all, go on with the next stage instead of stopping
+    bool skip_if_relaxed = false; ///< leave out where the stage before reached its end by itself
+    std::string if_stuck = "Raise `most_steps`, or loosen the condition."; ///< advice where it does not end
+};
+
+} // namespace clast
