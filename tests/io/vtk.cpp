@@ -125,7 +125,8 @@ TEST_CASE("the collection grows with the snapshots and a resumed one goes on whe
     REQUIRE(pvd.find("timestep=\"1.5\" group=\"\" part=\"0\" file=\"boundary_0003.vtp\"") != std::string::npos);
     const std::string uninterrupted = detail::read_whole(folder / "pebbles.pvd");
 
-    vtk_series resumed(folder, 0.7);
+    REQUIRE_THROWS_AS(vtk_series(folder, 5), input_error);
+    vtk_series resumed(folder, 2);
     REQUIRE(resumed.size() == 2);
     resumed.write(1.0, some_pebbles(3), some_facets(2));
     REQUIRE(count(detail::read_whole(folder / "pebbles.pvd"), "<DataSet") == 3);

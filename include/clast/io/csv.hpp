@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -210,16 +209,18 @@ template <class Row> std::vector<Row> read_table(const std::filesystem::path& pa
     return rows;
 }
 
-/// Cuts a file back to its leading rows for which keep(row) holds, so that a resumed run writes the later ones again.
-/// Returns the kept rows.
-template <class Row>
-std::vector<Row> truncate_table(const std::filesystem::path& path, const std::function<bool(const Row&)>& keep) {
+/// Cuts a file back to its first `count` rows, so that a resumed run writes the later ones again: none is lost, none is
+/// there twice. Returns the kept rows. Throws input_error where the file has fewer.
+template <class Row> std::vector<Row> truncate_table(const std::filesystem::path& path, std::size_t count) {
     std::vector<Row> rows;
     const std::size_t size = detail::scan_table<Row>(path, detail::read_whole(path), [&](Row& row) {
-        if (!keep(row)) return false;
+        if (rows.size() == count) return false;
         rows.push_back(std::move(row));
         return true;
     });
+    if (rows.size() < count)
+        throw input_error(
+            fmt::format("'{}' has lost rows: it has {}, the checkpoint says {}", path.string(), rows.size(), count));
     std::error_code error;
     std::filesystem::resize_file(path, size, error);
     if (error) throw detail::write_failed(path, error.value(), "while the file was cut back to the checkpoint");

@@ -46,6 +46,7 @@ struct plot_request {
     specimen_view start;                                ///< at the start of shear (empty: not drawn)
     specimen_view end;                                  ///< at the end of shear (empty: not drawn)
     std::vector<std::string> stages{"shear", "unload"}; ///< stages that are drawn against axial strain
+    std::vector<std::string> loading{"consolidate"};    ///< stages whose compression curve is drawn
 };
 
 /// What was drawn, and what could not be.
@@ -78,14 +79,11 @@ struct rosette {
     }
 };
 
-/// Sorts events into `sectors` of azimuth; only those at axial strain other than 0 (that is, in shear) if there are
-/// any.
+/// Sorts events into `sectors` of azimuth.
 inline rosette make_rosette(std::span<const fracture_event> events, int sectors = 36) {
-    const bool sheared = std::any_of(events.begin(), events.end(), [](const auto& e) { return e.axial_strain != 0.0; });
     rosette r{std::vector<std::int64_t>(static_cast<std::size_t>(sectors)),
               std::vector<std::int64_t>(static_cast<std::size_t>(sectors))};
     for (const fracture_event& e : events) {
-        if (sheared && e.axial_strain == 0.0) continue;
         double turn = std::atan2(e.position.y, e.position.x) / (2.0 * std::numbers::pi);
         if (turn < 0.0) turn += 1.0;
         const auto i = static_cast<std::size_t>(std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1));
@@ -535,10 +533,17 @@ inline void draw_section(plot_folder& plots, const specimen_view& view) {
                                                                 {"LEGEND", legend(page_w, page_h, section_colour)}}));
 }
 
+/// A condition of gnuplot that holds for these stages.
+inline std::string stage_condition(const std::vector<std::string>& stages) {
+    std::string text;
+    for (const std::string& s : stages) text += fmt::format("{}s eq \"{}\"", text.empty() ? "" : " || ", s);
+    return text.empty() ? "0" : text;
+}
+inline bool is_one_of(const std::string& stage, const std::vector<std::string>& stages) {
+    return std::find(stages.begin(), stages.end(), stage) != stages.end();
+}
+
 inline void draw_curves(plot_folder& plots, const plot_request& request, const std::vector<sample>& rows) {
-    std::string wanted;
-    for (const std::string& s : request.stages) wanted += fmt::format("{}s eq \"{}\"", wanted.empty() ? "" : " || ", s);
-    if (wanted.empty()) wanted = "0";
     const std::string series =
         std::filesystem::proximate(std::filesystem::absolute(request.series), std::filesystem::absolute(plots.path()))
             .string();
@@ -547,8 +552,8 @@ inline void draw_curves(plot_folder& plots, const plot_request& request, const s
     std::int64_t most = 0;
     std::size_t sheared = 0, loaded = 0;
     for (const sample& r : rows) {
-        if (r.axial_strain == 0.0 && r.p >= 1e3) ++loaded;
-        if (std::find(request.stages.begin(), request.stages.end(), r.stage) == request.stages.end()) continue;
+        if (is_one_of(r.stage, request.loading) && r.p >= 1e3) ++loaded;
+        if (!is_one_of(r.stage, request.stages)) continue;
         ++sheared;
         if (!peak || r.q > peak->q) peak = &r;
         const double dilation = -100.0 * r.volumetric_strain;
@@ -556,14 +561,16 @@ inline void draw_curves(plot_folder& plots, const plot_request& request, const s
         strain = std::max(strain, r.axial_strain);
         most = std::max({most, r.broken_tension + r.broken_shear, r.replaced});
     }
-    if (loaded >= 2) plots.draw("compression", fill_in(std::string(compression_script), {{"SERIES", series}}));
+    if (loaded >= 2)
+        plots.draw("compression", fill_in(std::string(compression_script),
+                                          {{"SERIES", series}, {"WANTED", stage_condition(request.loading)}}));
     if (sheared < 2 || strain <= 0.0) return;
     const double pad = std::max(0.12 * (v_max - v_min), 0.1);
     const bool right_half = peak->axial_strain > 0.6 * strain;
     const auto fill = [&](std::string_view script) {
         return fill_in(std::string(script),
                        {{"SERIES", series},
-                        {"WANTED", wanted},
+                        {"WANTED", stage_condition(request.stages)},
                         {"QPEAK", fmt::format("{:.8g}", 1e-6 * peak->q)},
                         {"EPEAK", fmt::format("{:.8g}", 100.0 * peak->axial_strain)},
                         {"QMIN", q_min < -1e3 ? "*" : "0"},
@@ -587,8 +594,14 @@ inline void draw_curves(plot_folder& plots, const plot_request& request, const s
 inline plot_report draw_plots(const std::filesystem::path& folder, const plot_request& request) {
     plot_report report;
     detail::plot_folder plots(folder, report);
-    detail::draw_curves(plots, request, read_table<sample>(request.series));
-    detail::draw_rosette(plots, read_table<fracture_event>(request.events));
+    const std::vector<sample> rows = read_table<sample>(request.series);
+    detail::draw_curves(plots, request, rows);
+    std::vector<fracture_event> events = read_table<fracture_event>(request.events);
+    const auto start = std::find_if(rows.begin(), rows.end(),
+                                    [&](const sample& r) { return detail::is_one_of(r.stage, request.stages); });
+    if (start != rows.end()) // in shear only
+        std::erase_if(events, [&](const fracture_event& e) { return e.time < start->time; });
+    detail::draw_rosette(plots, events);
     detail::draw_membrane(plots, request);
     detail::draw_specimen(plots, request);
     detail::draw_section(plots, request.end.pebbles.empty() ? request.start : request.end);

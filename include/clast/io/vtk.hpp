@@ -136,18 +136,19 @@ class vtk_series {
     /// Uses an existing folder; starts an empty series.
     explicit vtk_series(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// Goes on with the series of an earlier run: keeps the snapshots up to model time `until` (s) and forgets the
-    /// later ones, which the run will write again. Throws input_error where pebbles.pvd cannot be read.
-    vtk_series(std::filesystem::path folder, double until) : folder_(std::move(folder)) {
-        std::error_code none;
-        if (!std::filesystem::exists(folder_ / "pebbles.pvd", none)) return;
+    /// Goes on with the series of an earlier run after its first `keep` snapshots; the run will write the later ones
+    /// again. Throws input_error where pebbles.pvd has fewer.
+    vtk_series(std::filesystem::path folder, std::size_t keep) : folder_(std::move(folder)) {
+        if (keep == 0) return;
         const std::string text = detail::read_whole(folder_ / "pebbles.pvd");
         constexpr std::string_view mark = "timestep=\"";
-        for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos;) {
+        for (std::size_t at = 0; times_.size() < keep && (at = text.find(mark, at)) != std::string::npos;) {
             at += mark.size();
-            const double time = std::strtod(text.c_str() + at, nullptr);
-            if (time <= until) times_.push_back(time);
+            times_.push_back(std::strtod(text.c_str() + at, nullptr));
         }
+        if (times_.size() < keep)
+            throw input_error(fmt::format("'{}' has lost snapshots: it lists {}, the checkpoint says {}",
+                                          (folder_ / "pebbles.pvd").string(), times_.size(), keep));
     }
 
     /// Writes one snapshot at model time `time` (s). Throws run_error.

@@ -79,7 +79,7 @@ do for [kind in "svg png"] {
 )gp";
 
 inline constexpr std::string_view compression_script = R"gp(# Void ratio against mean stress, from series.csv. Redraw: gnuplot compression.gp
-# from the rows of isotropic loading, whose axial strain is 0
+wanted(s) = @WANTED@
 do for [kind in "svg png"] {
     w = 640; h = 460
     load "style.gp"
@@ -89,7 +89,7 @@ do for [kind in "svg png"] {
     set ylabel "void ratio e"
     set logscale x
     set xrange [1:*]
-    plot "@SERIES@" using (column("axial_strain") == 0 && column("p_Pa") >= 1e3 ? column("p_Pa")/1e3 : NaN):(column("void_ratio")) with lines linewidth 1.8 linecolor rgb blue notitle
+    plot "@SERIES@" using (wanted(strcol("stage")) && column("p_Pa") >= 1e3 ? column("p_Pa")/1e3 : NaN):(column("void_ratio")) with lines linewidth 1.8 linecolor rgb blue notitle
     unset output
 }
 )gp";
