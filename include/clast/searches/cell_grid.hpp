@@ -27,7 +27,11 @@ struct cell_grid {
                 low[a] = std::min(low[a], s.centre[a]), high[a] = std::max(high[a], s.centre[a]);
             widest = std::max(widest, 2.0 * s.radius);
         }
-        double edge = std::max(widest + margin, std::numeric_limits<double>::min());
+        // wider than the reach by more than rounding can move a coordinate or an index of up to 1e6, or a pair that
+        // just overlaps could be parted by a whole cell
+        double edge = std::max((widest + margin) * (1.0 + 1e-9), std::numeric_limits<double>::min());
+        for (int a = 0; a < 3; ++a)
+            edge += 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low[a]), std::abs(high[a]));
         std::array<std::int64_t, 3> cells{};
         const auto count_cells = [&] {
             for (int a = 0; a < 3; ++a)

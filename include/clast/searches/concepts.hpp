@@ -25,10 +25,11 @@ struct sphere_pair {
     constexpr auto operator<=>(const sphere_pair&) const = default;
 };
 
-/// True if the gap of two spheres is below the margin: the one predicate that all searches share.
+/// True if the gap of two spheres is below the margin: the one predicate that all searches share. A negative margin
+/// asks for an overlap.
 inline bool within(const sphere& a, const sphere& b, double margin) {
     const double reach = a.radius + b.radius + margin;
-    return norm2(b.centre - a.centre) < reach * reach;
+    return reach > 0.0 && norm2(b.centre - a.centre) < reach * reach;
 }
 
 /// S finds all pairs with gap < margin, each once, sorted; the same pairs for every search.
