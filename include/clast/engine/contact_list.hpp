@@ -51,7 +51,8 @@ struct contact_list {
 
     template <class A>
     void archive(A& a) {
-        a(pairs, history, bonded);
+        a(pairs, bonded);
+        if constexpr (remembers) a(history);
         rows.resize(pairs.size()); // written anew by the next step
     }
 };
