@@ -46,15 +46,16 @@ struct linear {
     response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double /*dt*/) const {
         using std::sqrt;
         const T fn = kn * (o.depth > 0.0 ? o.depth : T(0.0));
-        // turn the old shear force into the new contact plane, keeping its size
+        // turn the old shear force into the new contact plane and with the spin, keeping its size: it must not do work
         const T along = h.x * o.nx + h.y * o.ny + h.z * o.nz;
-        T sx = h.x - along * o.nx, sy = h.y - along * o.ny, sz = h.z - along * o.nz;
+        const T ax = h.x - along * o.nx, ay = h.y - along * o.ny, az = h.z - along * o.nz;
+        T sx = ax + m.spin * (o.ny * az - o.nz * ay);
+        T sy = ay + m.spin * (o.nz * ax - o.nx * az);
+        T sz = az + m.spin * (o.nx * ay - o.ny * ax);
         const T before = h.x * h.x + h.y * h.y + h.z * h.z;
-        const T projected = sx * sx + sy * sy + sz * sz;
-        const T keep = projected > 0.0 ? sqrt(before / projected) : T(0.0);
+        const T after = sx * sx + sy * sy + sz * sz;
+        const T keep = after > 0.0 ? sqrt(before / after) : T(0.0);
         sx *= keep, sy *= keep, sz *= keep;
-        const T tx = o.ny * sz - o.nz * sy, ty = o.nz * sx - o.nx * sz, tz = o.nx * sy - o.ny * sx;
-        sx += m.spin * tx, sy += m.spin * ty, sz += m.spin * tz;
         // spring, then slider
         const T px = sx - ks * m.ux, py = sy - ks * m.uy, pz = sz - ks * m.uz;
         const T trial = sqrt(px * px + py * py + pz * pz);
@@ -62,8 +63,9 @@ struct linear {
         const T cut = trial > limit ? limit / trial : T(1.0);
         h.x = cut * px, h.y = cut * py, h.z = cut * pz;
         // work of the mean shear force on the slip (trial - F) / k_s
-        const T slip = ks > 0.0 ? 0.5 * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z)) / ks
-                                : T(0.0);
+        const T slip = ks > 0.0
+                           ? 0.5 * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z)) / ks
+                           : T(0.0);
         return {h.x - fn * o.nx, h.y - fn * o.ny, h.z - fn * o.nz, slip};
     }
 
