@@ -16,37 +16,37 @@
 
 namespace clast::bonds {
 
-/// What the number "linear parallel bond normal stiffness 9.6e8" of the paper's Table 1 means. Table 1 prints N/m; PFC's
-/// own property is a stress per displacement (Pa/m), which would let a bond stretch by 3 cm before it fails; read as a
-/// modulus (Pa) the bond is about as soft as a contact.
+/// What the number "linear parallel bond normal stiffness 9.6e8" of the paper's Table 1 means. Table 1 prints N/m;
+/// PFC's own property is a stress per displacement (Pa/m), which would let a bond stretch by 3 cm before it fails; read
+/// as a modulus (Pa) the bond is about as soft as a contact.
 enum class stiffness_reading : std::uint8_t {
     force,    ///< N/m of the whole bond, as printed (default)
     per_area, ///< Pa/m, multiplied by the bond's area
     modulus   ///< Pa, divided by the distance of the balls and multiplied by the bond's area
 };
 
-/// Material of a parallel bond (paper Table 1; equations of Potyondy and Cundall 2004, doi:10.1016/j.ijrmms.2004.09.011,
-/// and the Itasca PFC manual, "Linear parallel bond").
+/// Material of a parallel bond (paper Table 1; equations of Potyondy and Cundall 2004,
+/// doi:10.1016/j.ijrmms.2004.09.011, and the Itasca PFC manual, "Linear parallel bond").
 struct parallel {
     stiffness_reading reading = stiffness_reading::force;
-    double normal_stiffness = 9.6e8; ///< N/m, Pa/m or Pa by `reading`, > 0
-    double shear_stiffness = 4.8e8;  ///< same unit, > 0
-    double tensile_strength = 0.3e8; ///< sigma_t (Pa), > 0
-    double cohesion = 0.6e8;         ///< c (Pa), > 0
-    double friction_angle = 0.0;     ///< phi_b (rad), in [0, pi/2): tau_c = c - s tan(phi_b), s tension positive
-    double radius_multiplier = 1.0;  ///< R_b over the smaller radius, > 0
+    double normal_stiffness = 9.6e8;  ///< N/m, Pa/m or Pa by `reading`, > 0
+    double shear_stiffness = 4.8e8;   ///< same unit, > 0
+    double tensile_strength = 0.3e8;  ///< sigma_t (Pa), > 0
+    double cohesion = 0.6e8;          ///< c (Pa), > 0
+    double friction_angle = 0.0;      ///< phi_b (rad), in [0, pi/2): tau_c = c - s tan(phi_b), s tension positive
+    double radius_multiplier = 1.0;   ///< R_b over the smaller radius, > 0
     double moment_contribution = 1.0; ///< beta in [0, 1]: share of bending and twist in the peripheral stresses
 };
 
 /// What one bond of a given pair of balls needs in a loop: force stiffnesses and the coefficients of its stresses.
 struct constants {
-    double kn;           ///< normal (N/m)
-    double ks;           ///< shear (N/m)
-    double kt;           ///< twist (N m/rad) = k_s J / A
-    double kb;           ///< bending (N m/rad) = k_n I / A
-    double per_area;     ///< 1 / A (1/m^2)
-    double per_bending;  ///< beta R / I (1/m^3)
-    double per_twist;    ///< beta R / J (1/m^3)
+    double kn;          ///< normal (N/m)
+    double ks;          ///< shear (N/m)
+    double kt;          ///< twist (N m/rad) = k_s J / A
+    double kb;          ///< bending (N m/rad) = k_n I / A
+    double per_area;    ///< 1 / A (1/m^2)
+    double per_bending; ///< beta R / I (1/m^3)
+    double per_twist;   ///< beta R / J (1/m^3)
     double tensile_strength;
     double cohesion;
     double tan_friction;
@@ -59,9 +59,12 @@ inline constants constants_of(const parallel& m, double r1, double r2) {
     const double inertia = 0.25 * area * r * r;
     const auto force_stiffness = [&](double k) {
         switch (m.reading) {
-        case stiffness_reading::per_area: return k * area;
-        case stiffness_reading::modulus: return k * area / (r1 + r2);
-        default: return k;
+        case stiffness_reading::per_area:
+            return k * area;
+        case stiffness_reading::modulus:
+            return k * area / (r1 + r2);
+        default:
+            return k;
         }
     };
     const double kn = force_stiffness(m.normal_stiffness), ks = force_stiffness(m.shear_stiffness);
@@ -84,10 +87,7 @@ struct state {
     double mt = 0.0; ///< twisting moment (N m)
     vec3 mb;         ///< bending moment (N m), normal to the bond
 
-    template <class A>
-    void archive(A& a) {
-        a(n, v, mt, mb);
-    }
+    template <class A> void archive(A& a) { a(n, v, mt, mb); }
 };
 
 /// Force and moments that a bond exerts on its two balls.
@@ -121,16 +121,16 @@ inline wrench loads(const state& s, const vec3& n, double ra, double rb) {
     return {f, m + ra * nf, rb * nf - m};
 }
 
-/// Turns shear force and bending moment into the plane of the new normal, keeping their size, and with the mean spin
-/// about the normal over dt.
+/// Turns shear force and bending moment into the plane of the new normal and with the mean spin about it over dt,
+/// keeping their size: turning must not do work.
 inline void turn(state& s, const vec3& n, const vec3& mean_spin, double dt) {
     const double angle = dot(mean_spin, n) * dt;
     const auto follow = [&](vec3& a) {
         const double before = norm2(a);
         a = reject(a, n);
+        a += angle * cross(n, a);
         const double after = norm2(a);
         if (after > 0.0) a *= std::sqrt(before / after);
-        a += angle * cross(n, a);
     };
     follow(s.v);
     follow(s.mb);
