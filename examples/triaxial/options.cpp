@@ -1,0 +1,565 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <initializer_list>
+#include <numbers>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include <clast/core/errors.hpp>
+#include <clast/core/quantity.hpp>
+#include <clast/grains/shape.hpp>
+#include <clast/io/archive.hpp>
+#include <clast/version.hpp>
+
+namespace triaxial {
+
+using clast::input_error;
+namespace quantities = clast::quantities;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int fewest_tiles = 6; // below, the polygon no longer resembles a cylinder
+constexpr int fewest_default_tiles = 8;
+constexpr double smallest_scale = 0.15; // the diameter is then 2.25 grains
+constexpr double largest_scale = 2.0;
+
+/// What was typed; empty where the option was not given.
+struct raw {
+    std::string shape, strength, membrane, rings, tiles, confining, scale, strain, inertial_number, criterion,
+        replacement, birth, bond_stiffness, friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
+        stop_after, protocol, preset;
+    bool no_plots = false, quiet = false, overwrite = false, version = false;
+};
+
+std::string joined(std::initializer_list<const char*> words) {
+    std::string text;
+    for (const char* w : words) text += (text.empty() ? "" : ", ") + std::string(w);
+    return text;
+}
+
+void choose(std::string& target, const std::string& text, const char* option,
+            std::initializer_list<const char*> allowed) {
+    if (text.empty()) return;
+    for (const char* name : allowed)
+        if (text == name) {
+            target = text;
+            return;
+        }
+    throw input_error(option, text, joined(allowed), fmt::format("Write for example {} {}.", option, *allowed.begin()));
+}
+
+template <class Integer>
+Integer whole_number(const std::string& text, const char* option, Integer low, Integer high,
+                     const std::string& way_out) {
+    Integer value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high)
+        throw input_error(option, text, fmt::format("a whole number from {} to {}", low, high), way_out);
+    return value;
+}
+
+template <class Quantity>
+double checked(const std::string& text, const char* option, double low, double high, bool low_itself,
+               const std::string& allowed, const std::string& way_out) {
+    const double value = clast::parse<Quantity>(text, option).si();
+    if (value < low || value > high || (value == low && !low_itself)) throw input_error(option, text, allowed, way_out);
+    return value;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+/// The command line; every option is text first, so that our own messages name unit, range and a way out.
+void declare(CLI::App& app, raw& r) {
+    const char* group = "Test";
+    const auto add = [&](const char* name, std::string& target, const char* kind, const std::string& text,
+                         const std::string& fallback) {
+        app.add_option(name, target, fallback.empty() ? text : fmt::format("{} [{}]", text, fallback))
+            ->type_name(kind)
+            ->group(group);
+    };
+    add("--shape", r.shape, "NAME|FILE", "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line", "4B");
+    add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");
+    add("--membrane", r.membrane, "NAME", "lateral boundary: tiles, or solid (strips that move as one)", "tiles");
+    add("--rings", r.rings, "N", "rings of tiles over the height (V_sec)", "36 * scale");
+    add("--tiles-per-ring", r.tiles, "N", "tiles, or strips, around the specimen (H_part)", "20 * scale, at least 10");
+    add("--confining", r.confining, "STRESS", "confining stress in Pa, kPa, MPa or GPa", "2MPa");
+    add("--scale", r.scale, "S", "size of the specimen: 1 is 30 cm x 70 cm; grains stay 2 cm", "0.4");
+    add("--strain", r.strain, "STRAIN", "axial strain at the end of shear, 25% or 0.25", "25%");
+    add("--protocol", r.protocol, "NAME", "triaxial, isotropic (no shear), unload (shear, then back to q = 0)",
+        "triaxial");
+    add("--inertial-number", r.inertial_number, "I", "limit of the inertial number in shear", "1e-4");
+    add("--friction", r.friction, "MU", "friction coefficient between grains", "0.3");
+    add("--damping", r.damping, "A", "local damping", "0.7");
+    add("--seed", r.seed, "N", "of the random packing", "1");
+    group = "Breakage";
+    add("--criterion", r.criterion, "NAME",
+        "when a grain breaks: nominal_force, hertz_literal, hertz_calibrated,\noctahedral, mean, major_principal, none",
+        "nominal_force");
+    add("--replacement", r.replacement, "NAME", "what becomes of it: modified (bonded cluster, MPRM), none",
+        "modified");
+    add("--birth", r.birth, "NAME", "forces of new bonds: warm (in equilibrium with the load),\nzero (as in PFC)",
+        "warm");
+    add("--bond-stiffness", r.bond_stiffness, "READING|VALUE",
+        "how 9.6e8 of Table 1 is read: force (N/m per bond), modulus (Pa),\nper_area (Pa/m); or a value with one of "
+        "these "
+        "units",
+        "force");
+    group = "Run";
+    add("--threads", r.threads, "N", "number of threads; 0: as many as the machine has", "0");
+    add("--out", r.out, "DIR", "folder of the results", "results/SHAPE-MEMBRANE-STRENGTH-CONFINING");
+    add("--resume", r.resume, "DIR", "go on with the interrupted run in this folder, with its options", "");
+    app.add_flag("--overwrite", r.overwrite, "replace earlier results in the folder")->group(group);
+    add("--save-every", r.save_every, "TIME", "wall time between checkpoints, in minutes or with s, min, h", "5min");
+    add("--snapshots", r.snapshots, "N", "ParaView snapshots over the shear", "10");
+    add("--rows", r.rows, "N", "rows of series.csv over the shear", "500");
+    app.add_flag("--no-plots", r.no_plots, "do not draw the figures at the end")->group(group);
+    app.add_flag("--quiet", r.quiet, "no progress on the screen")->group(group);
+    group = ""; // for tests, not listed
+    add("--stop-after", r.stop_after, "STAGE|STEPS", "stop with a checkpoint after a stage or a number of steps", "");
+    group = "Information";
+    add("--preset", r.preset, "NAME", "paper: print Table 1 of the paper with our reading of each row", "");
+    app.add_flag("--version", r.version, "print the version")->group(group);
+    app.set_help_flag("-h,--help", "print this text")->group(group);
+}
+
+/// Options that may be given together with --resume, because they change no result.
+bool allowed_with_resume(const std::string& name) {
+    for (const char* free :
+         {"--resume", "--threads", "--save-every", "--no-plots", "--quiet", "--stop-after", "--help", "--version"})
+        if (name == free) return true;
+    return false;
+}
+
+[[noreturn]] void explain(const CLI::App& app, const CLI::ParseError& error,
+                          const std::vector<std::string>& arguments) {
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        for (const std::string& a : arguments) {
+            const std::string name = a.substr(0, a.find('='));
+            if (!name.starts_with("-") || app.get_option_no_throw(name)) continue;
+            std::string nearest;
+            std::size_t best = name.size() / 2;
+            for (const CLI::Option* o : app.get_options())
+                if (const std::size_t d = edit_distance(name, o->get_name()); d < best)
+                    best = d, nearest = o->get_name();
+            throw input_error(fmt::format("{}: there is no such option.{} See --help for all of them.", name,
+                                          nearest.empty() ? "" : fmt::format(" Did you mean {}?", nearest)));
+        }
+        throw input_error(fmt::format("{} Every value belongs to an option; see --help.", error.what()));
+    }
+    throw input_error(fmt::format("{}. See --help.", error.what()));
+}
+
+void read_shape(options& o) {
+    const clast::shape grain = [&o] {
+        try {
+            return clast::shapes::by_name(o.shape, grain_diameter);
+        } catch (const input_error& e) {
+            const std::string text = e.what();
+            throw input_error((text.starts_with("shape: ") ? "--" : "--shape: ") + text);
+        }
+    }();
+    double largest = 0.0;
+    for (const clast::shape_pebble& p : grain.pebbles) largest = std::max(largest, 2.0 * p.radius);
+    const bool named = o.shape == "4B" || o.shape == "14B" || o.shape == "sphere";
+    if (!named) o.shape_checksum = clast::checksum(grain.pebbles);
+
+    // tiles and strips have to be wider than a pebble, or one could slip through a corner
+    const double width = tile_width(o.diameter(), o.tiles_per_ring);
+    if (width < largest) {
+        const int most = static_cast<int>(std::numbers::pi / std::atan(largest / o.diameter()));
+        const double enough = largest / std::tan(std::numbers::pi / o.tiles_per_ring) / full_diameter;
+        throw input_error("--tiles-per-ring", fmt::format("{}", o.tiles_per_ring),
+                          fmt::format("{} to {} at scale {} (a tile would be {:.1f} mm wide, a pebble is {:.1f} mm)",
+                                      fewest_tiles, most, o.scale, 1e3 * width, 1e3 * largest),
+                          fmt::format("Use fewer tiles, or --scale {:.2f} or more.", std::ceil(100 * enough) / 100));
+    }
+    if (const double tall = o.height() / o.rings; tall < largest)
+        throw input_error("--rings", fmt::format("{}", o.rings),
+                          fmt::format("1 to {} at scale {} (a tile would be {:.1f} mm high, a pebble is {:.1f} mm)",
+                                      static_cast<int>(o.height() / largest), o.scale, 1e3 * tall, 1e3 * largest),
+                          fmt::format("Use fewer rings, or --scale {:.2f} or more.",
+                                      std::ceil(100 * largest * o.rings / full_height) / 100));
+}
+
+void read_tiles(options& o, const raw& r) {
+    const bool solid = o.membrane == "solid";
+    o.rings = solid ? 1 : std::max(1, static_cast<int>(std::lround(36 * o.scale)));
+    if (!r.rings.empty())
+        o.rings = whole_number(r.rings, "--rings", 1, 1000, "The paper uses 12, 24 and 36 at scale 1.");
+    if (solid && o.rings != 1)
+        throw input_error("--rings", r.rings, "1 with --membrane solid, which is rigid over its height",
+                          "Leave --rings out, or use --membrane tiles.");
+
+    if (!r.tiles.empty()) {
+        o.tiles_per_ring =
+            whole_number(r.tiles, "--tiles-per-ring", fewest_tiles, 1000, "The paper uses 20 at scale 1.");
+        return;
+    }
+    // about the width of the paper's tiles, but ten for a round ring, and none narrower than a grain
+    const int wide_enough = static_cast<int>(std::numbers::pi / std::atan(grain_diameter / o.diameter()));
+    o.tiles_per_ring = std::min(std::max(10, static_cast<int>(std::lround(20 * o.scale))), wide_enough);
+    if (o.tiles_per_ring < fewest_default_tiles) {
+        const double enough = grain_diameter / std::tan(std::numbers::pi / fewest_default_tiles) / full_diameter;
+        throw input_error(
+            "--scale", r.scale,
+            fmt::format("{:.2f} to {:g}: a ring needs {} tiles that are wider than a grain",
+                        std::ceil(100 * enough) / 100, largest_scale, fewest_default_tiles),
+            fmt::format("Use a larger scale, or set --tiles-per-ring ({} or more) yourself.", fewest_tiles));
+    }
+}
+
+void read_bond_stiffness(options& o, const std::string& text) {
+    if (text.empty()) return;
+    for (const auto& [name, reading] : {std::pair{"force", bond_reading::force},
+                                        {"modulus", bond_reading::modulus},
+                                        {"per_area", bond_reading::per_area}})
+        if (text == name) {
+            o.bond_stiffness_reading = reading; // of the value in Table 1
+            return;
+        }
+    const std::string allowed =
+        fmt::format("force, modulus, per_area, or a positive number with one of the units {} (force per bond), {} "
+                    "(modulus), {} (per area)",
+                    clast::unit_list({1, 0, -2}), clast::unit_list({1, -1, -2}), clast::unit_list({1, -2, -2}));
+    const auto parts = clast::detail::split_number(text);
+    const clast::named_unit* unit = nullptr;
+    if (parts)
+        for (const clast::dimension d :
+             {clast::dimension{1, 0, -2}, clast::dimension{1, -1, -2}, clast::dimension{1, -2, -2}})
+            if (const auto* found = clast::detail::find_unit(d, parts->unit)) unit = found;
+    if (!unit || parts->number <= 0.0)
+        throw input_error("--bond-stiffness", text, allowed, "Write for example --bond-stiffness 9.6e8N/m.");
+    o.bond_stiffness = parts->number * unit->factor;
+    o.bond_stiffness_reading = unit->dimension == clast::dimension{1, 0, -2}    ? bond_reading::force
+                               : unit->dimension == clast::dimension{1, -1, -2} ? bond_reading::modulus
+                                                                                : bond_reading::per_area;
+}
+
+void read_run(options& o, const raw& r) {
+    if (!r.threads.empty())
+        o.threads = whole_number(r.threads, "--threads", 0, 1024, "0 takes as many as the machine has.");
+    if (!r.save_every.empty()) {
+        const auto parts = clast::detail::split_number(r.save_every);
+        o.save_every = parts && parts->unit.empty()
+                           ? 60.0 * parts->number
+                           : clast::parse<quantities::duration>(r.save_every, "--save-every").si();
+        if (!(o.save_every > 0.0))
+            throw input_error("--save-every", r.save_every, "a time longer than 0",
+                              "Write for example --save-every 5min.");
+    }
+    if (!r.stop_after.empty()) {
+        const bool number = r.stop_after.find_first_not_of("0123456789") == std::string::npos;
+        if (number)
+            o.stop_after_steps = whole_number<std::int64_t>(r.stop_after, "--stop-after", 1, 1'000'000'000'000,
+                                                            "Write a number of steps or the name of a stage.");
+        else
+            o.stop_after_stage = r.stop_after;
+    }
+    o.plots = o.plots && !r.no_plots;
+    o.quiet = o.quiet || r.quiet;
+}
+
+options checked_options(const raw& r) {
+    options o;
+    if (!r.shape.empty()) o.shape = r.shape;
+    if (o.shape == "4b" || o.shape == "14b") o.shape.back() = 'B';
+    choose(o.strength, r.strength, "--strength", {"weak", "medium", "strong"});
+    choose(o.membrane, r.membrane, "--membrane", {"tiles", "solid"});
+    choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload"});
+    choose(o.criterion, r.criterion, "--criterion",
+           {"nominal_force", "hertz_literal", "hertz_calibrated", "octahedral", "mean", "major_principal", "none"});
+    choose(o.replacement, r.replacement, "--replacement", {"modified", "none"});
+    choose(o.birth, r.birth, "--birth", {"warm", "zero"});
+    if (!r.confining.empty())
+        o.confining =
+            checked<quantities::stress>(r.confining, "--confining", 1e3, 1e8, true,
+                                        "1kPa to 100MPa, compression is positive", "The paper uses 1.5MPa and 2MPa.");
+    if (!r.scale.empty())
+        o.scale = checked<quantities::ratio>(r.scale, "--scale", smallest_scale, largest_scale, true,
+                                             fmt::format("{:g} to {:g}", smallest_scale, largest_scale),
+                                             "1 is the specimen of the paper, 0.4 a quick test.");
+    if (!r.strain.empty())
+        o.strain = checked<quantities::ratio>(r.strain, "--strain", 0.0, 0.5, false, "more than 0, up to 50%",
+                                              "The paper goes to 25%.");
+    if (!r.inertial_number.empty())
+        o.inertial_number = checked<quantities::ratio>(
+            r.inertial_number, "--inertial-number", 0.0, 0.1, false, "more than 0, up to 0.1",
+            "Up to 1e-3 a test counts as quasi-static; the paper uses 1e-4.");
+    if (!r.friction.empty())
+        o.friction =
+            checked<quantities::ratio>(r.friction, "--friction", 0.0, 10.0, true, "0 to 10", "The paper uses 0.3.");
+    if (!r.damping.empty())
+        o.damping = checked<quantities::ratio>(r.damping, "--damping", 0.0, 0.95, true, "0 to 0.95", "0.7 is usual.");
+    if (!r.seed.empty())
+        o.seed = whole_number<std::uint64_t>(r.seed, "--seed", 0, ~std::uint64_t{0}, "Any whole number will do.");
+    if (!r.snapshots.empty()) o.snapshots = whole_number(r.snapshots, "--snapshots", 0, 100000, "10 is usual.");
+    if (!r.rows.empty()) o.rows = whole_number(r.rows, "--rows", 1, 10000000, "500 is usual.");
+    read_bond_stiffness(o, r.bond_stiffness);
+    read_tiles(o, r);
+    read_shape(o);
+    read_run(o, r);
+    o.overwrite = r.overwrite;
+    o.out = !r.out.empty()
+                ? fs::path(r.out)
+                : fs::path("results") / fmt::format("{}-{}-{}-{}",
+                                                    o.shape_checksum != 0 ? fs::path(o.shape).stem().string() : o.shape,
+                                                    o.membrane, o.strength, stress_text(o.confining));
+    return o;
+}
+
+options resumed_options(const CLI::App& app, const raw& r) {
+    for (const CLI::Option* given : app.get_options())
+        if (given->count() > 0 && !allowed_with_resume(given->get_name()))
+            throw input_error(fmt::format(
+                "{}: an option that decides results cannot be changed by --resume, which goes on with those of '{}'. "
+                "Leave it out, or start a new run with another --out.",
+                given->get_name(), r.resume));
+    const fs::path folder = r.resume;
+    std::ifstream file(folder / arguments_file);
+    if (!file)
+        throw input_error("--resume", r.resume, "the folder of an earlier run (--out)",
+                          fmt::format("There is no '{}' in it.", arguments_file));
+    std::vector<std::string> stored;
+    for (std::string line; std::getline(file, line);)
+        if (!line.empty()) stored.push_back(line);
+    // the copy of a shape file is in the folder, wherever that is now
+    for (std::string& a : stored)
+        if (a.starts_with("--shape=shape/")) a = "--shape=" + (folder / a.substr(8)).string();
+    options o;
+    try {
+        o = parse_options(stored).values;
+    } catch (const input_error& e) {
+        throw input_error(
+            fmt::format("--resume: '{}' cannot be used: {}", (folder / arguments_file).string(), e.what()));
+    }
+    o.out = folder;
+    o.resume = true;
+    o.overwrite = false;
+    read_run(o, r);
+    return o;
+}
+
+} // namespace
+
+double tile_width(double specimen_diameter, int tiles_per_ring) {
+    return specimen_diameter * std::tan(std::numbers::pi / tiles_per_ring);
+}
+
+std::string stress_text(double pascal) {
+    return pascal >= 1e5 ? fmt::format("{:g}MPa", pascal / 1e6) : fmt::format("{:g}kPa", pascal / 1e3);
+}
+
+const strength_class& options::rock() const {
+    for (const strength_class& c : strength_classes)
+        if (strength == c.name) return c;
+    throw input_error("--strength", strength, "weak, medium, strong", "");
+}
+
+parsed parse_options(std::vector<std::string> arguments) {
+    CLI::App app{"Triaxial test on breakable rockfill: packs clumps, consolidates them, shears them, and writes "
+                 "curves, fractures,\n"
+                 "ParaView files and figures. Stresses, times and stiffnesses need a unit: 2MPa,\n"
+                 "5min, 9.6e8N/m. Defaults are in brackets.",
+                 "triaxial"};
+    app.get_formatter()->column_width(32);
+    app.set_help_flag(); // comes last
+    raw r;
+    declare(app, r);
+    try {
+        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend()); // CLI11 takes them from the back
+        app.parse(std::move(reversed));
+    } catch (const CLI::CallForHelp&) {
+        std::string text = app.help();
+        for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+        fmt::print("{}Exit codes: 0 done, 2 wrong input, 3 the run failed, 130 and 143 stopped by a signal, with a "
+                   "checkpoint.\n",
+                   text);
+        return {{}, true};
+    } catch (const CLI::ParseError& error) {
+        explain(app, error, arguments);
+    }
+    if (r.version) {
+        fmt::print("clast {}\n", clast::version());
+        return {{}, true};
+    }
+    if (!r.preset.empty()) {
+        if (r.preset != "paper")
+            throw input_error("--preset", r.preset, "paper",
+                              "The values of the paper are the defaults; --scale 1 gives its size.");
+        fmt::print("{}", paper_preset_text());
+        return {{}, true};
+    }
+    return {app.get_option("--resume")->count() > 0 ? resumed_options(app, r) : checked_options(r), false};
+}
+
+std::string physics_text(const options& o) {
+    constexpr const char* reading_names[] = {"N/m per bond", "Pa", "Pa/m"};
+    std::string text;
+    const auto line = [&text](std::string_view name, const auto& value, std::string_view unit = "") {
+        text += fmt::format("{} = {}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
+    };
+    line("shape", o.shape_checksum == 0
+                      ? o.shape
+                      : fmt::format("{} (checksum {:016x})", fs::path(o.shape).stem().string(), o.shape_checksum));
+    line("strength", o.strength);
+    line("membrane", o.membrane);
+    line("rings", o.rings);
+    line("tiles per ring", o.tiles_per_ring);
+    line("confining stress", o.confining, "Pa");
+    line("scale", o.scale);
+    line("axial strain", o.strain);
+    line("protocol", o.protocol);
+    line("inertial number", o.inertial_number);
+    line("friction", o.friction);
+    line("damping", o.damping);
+    line("seed", o.seed);
+    line("criterion", o.criterion);
+    line("replacement", o.replacement);
+    line("bond birth", o.birth);
+    line("bond stiffness", o.bond_stiffness, reading_names[static_cast<std::size_t>(o.bond_stiffness_reading)]);
+    line("rows", o.rows);
+    line("snapshots", o.snapshots);
+    return text;
+}
+
+std::vector<std::string> to_arguments(const options& o) {
+    constexpr const char* reading_units[] = {"N/m", "Pa", "Pa/m"};
+    std::vector<std::string> a;
+    const auto add = [&a](std::string_view name, const auto& value, std::string_view unit = "") {
+        a.push_back(fmt::format("--{}={}{}", name, value, unit));
+    };
+    add("shape", o.shape);
+    add("strength", o.strength);
+    add("membrane", o.membrane);
+    add("rings", o.rings);
+    add("tiles-per-ring", o.tiles_per_ring);
+    add("confining", o.confining, "Pa");
+    add("scale", o.scale);
+    add("strain", o.strain);
+    add("protocol", o.protocol);
+    add("inertial-number", o.inertial_number);
+    add("friction", o.friction);
+    add("damping", o.damping);
+    add("seed", o.seed);
+    add("criterion", o.criterion);
+    add("replacement", o.replacement);
+    add("birth", o.birth);
+    add("bond-stiffness", o.bond_stiffness, reading_units[static_cast<std::size_t>(o.bond_stiffness_reading)]);
+    add("threads", o.threads);
+    add("out", o.out.string());
+    add("save-every", o.save_every, "s");
+    add("snapshots", o.snapshots);
+    add("rows", o.rows);
+    if (!o.plots) a.emplace_back("--no-plots");
+    if (o.quiet) a.emplace_back("--quiet");
+    return a;
+}
+
+std::string paper_preset_text() {
+    struct entry {
+        const char *row, *value, *decision, *reading, *why;
+    };
+    constexpr entry table[] = {
+        {"Characteristic strength of a grain", "23.2 / 43.2 / 350.7 MPa (weak / medium / strong)", "D1",
+         "a grain is replaced when the force of a neighbour reaches 0.9 * sigma * d^2: 8.35 / 15.6 / 126 kN at d = 2 "
+         "cm (--criterion nominal_force)",
+         "Eq. 1 as printed gives 0.01 N for the weak rock, where a mean contact carries 700 N; the values are those of "
+         "crushing tests, platen "
+         "force over d^2. Eq. 1 is kept: hertz_literal, hertz_calibrated"},
+        {"Bond tensile strength", "0.3e8 / 0.5e8 / 4.2e8 N/m2", "D2",
+         "stress, as printed; bond radius = smaller pebble, moment contribution 1",
+         "with it the crushing strength of the clusters comes out near the first row"},
+        {"Bond cohesion", "0.6e8 / 1.0e8 / 8.4e8 N/m2", "D2", "shear strength, bond friction angle 0",
+         "no angle is given"},
+        {"Young's modulus, Poisson ratio", "46.8 GPa, 0.3", "D1", "enter only the Hertz criteria",
+         "contacts are linear"},
+        {"Linear normal, shear stiffness", "5.8e6, 2.9e6 N/m", "D6",
+         "of a piece; two in series: 2.9e6 pebble-pebble, 2.06e6 pebble-tile, 5.70e6 N/m pebble-platen",
+         "the rule of the linear model that the paper names"},
+        {"Bond normal, shear stiffness", "9.6e8, 4.8e8 N/m", "D2",
+         "N/m per bond, as printed (--bond-stiffness force); modulus (Pa) and per_area (Pa/m) can be chosen",
+         "Pa/m would let a bond stretch by 3 cm before it fails"},
+        {"", "", "D3", "the stiff bonds of a cluster are sub-cycled, the step of the specimen stays",
+         "an explicit step would be 20 to 70 times smaller"},
+        {"Platen normal stiffness", "3.2e8 N/m", "D6, D7",
+         "in series with the pebble; no friction with platens and tiles",
+         "none is listed; usual for lubricated platens"},
+        {"Tile normal stiffness", "3.2e6 N/m", "D6, D7", "the same", ""},
+        {"Coefficient of friction", "0.3", "D7", "between pebbles", ""},
+        {"Sample initial porosity", "58 %", "D13", "from the volume of the pebbles: gaps inside a clump are voids",
+         "the hulls then pack to 0.59 to 0.62, as loose packings do"},
+        {"Sample (section 2.3)", "30 cm x 70 cm", "--scale 1", "the default is scale 0.4: 12 cm x 28 cm, same grains",
+         "minutes and not days"},
+        {"Grain size (section 2.3)", "2 cm", "D5", "diameter of the sphere around a clump",
+         "gives 9 470 grains 14B, 13 660 grains 4B at scale 1"},
+        {"Shapes (Fig. 5)", "14 balls, 4 balls", "D4",
+         "14B: 6 + 8 balls in a sphere, 36 bonds; 4B: regular tetrahedron, 6 bonds",
+         "no coordinates are given; --shape FILE takes others"},
+        {"Membrane (section 2.2)", "H_part 20, V_sec 12 / 24 / 36", "D8, D9",
+         "the polygon surrounds the 30 cm circle; the gap rule uses the smallest pebble",
+         "tiles of V_sec 36 are 1.94 cm high, less than a grain"},
+        {"Tile velocity (section 2.3)", "0.01 mm/s", "D10",
+         "limited by inertial number and by overlap per step instead",
+         "at 0.01 mm/s a tile would need 750 s to bulge 5 %, the test lasts 2 s"},
+        {"Tolerance of stress (section 2.3)", "0.1 %", "D15",
+         "servo v = 0.5 (F_target - F)/(K dt) for each tile; 0.1 % holds for the mean",
+         "a tile carries 2 to 7 contacts"},
+        {"Damping, gravity, density", "not given", "D11", "local damping 0.7, no gravity, 2650 kg/m3",
+         "usual for quasi-static tests"},
+        {"Replacement (section 2.1)", "at 90 % of strength", "D12",
+         "velocities and contacts are kept, bonds are born in equilibrium with the load (--birth warm)",
+         "bonds born without force break at once by overshoot, which is numerical"},
+        {"Volumetric strain", "sign not given", "D14",
+         "files: compression positive; figures: dilation positive, and say so", "as the paper's text implies"},
+    };
+    const auto wrapped = [](std::string_view label, std::string_view text) {
+        std::string out, line = "    " + std::string(label);
+        const std::string indent(line.size(), ' ');
+        while (!text.empty()) {
+            const auto space = text.find(' ');
+            const std::string_view word = text.substr(0, space);
+            if (line.size() + word.size() + 1 > 110) {
+                out += line + "\n";
+                line = indent;
+            }
+            line += (line.back() == ' ' ? "" : " ") + std::string(word);
+            text = space == std::string_view::npos ? std::string_view{} : text.substr(space + 1);
+        }
+        return out + line + "\n";
+    };
+    std::string text =
+        "Table 1 of the paper (Granular Matter 2024, doi 10.1007/s10035-024-01441-3) and what else its test needs,\n"
+        "each with our reading. D1 to D15 number the decisions in the manual. These are the defaults of this "
+        "program.\n";
+    for (const entry& e : table) {
+        if (*e.row) text += fmt::format("\n{}: {}\n", e.row, e.value);
+        text += wrapped(fmt::format("{:<10} ", e.decision), e.reading);
+        if (*e.why) text += wrapped("           why:", e.why);
+    }
+    return text;
+}
+
+} // namespace triaxial

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What a user can ask the triaxial program for, in SI values and names.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace triaxial {
+
+/// How the bond stiffness of Table 1 (paper) is read; physics of the readings: manual, page "bonds".
+enum class bond_reading : std::uint8_t {
+    force,    ///< N/m per bond, as printed
+    modulus,  ///< Pa: bond stiffness = modulus * area / length
+    per_area, ///< Pa/m: bond stiffness = value * area (what PFC calls pb_kn)
+};
+
+/// One of the three rocks of Table 1.
+struct strength_class {
+    const char* name;
+    double characteristic; ///< characteristic strength of a grain, platen force over d^2 (Pa)
+    double bond_tension;   ///< tensile strength of a bond (Pa)
+    double bond_cohesion;  ///< cohesion of a bond (Pa)
+};
+inline constexpr strength_class strength_classes[] = {
+    {"weak", 23.2e6, 0.3e8, 0.6e8}, {"medium", 43.2e6, 0.5e8, 1.0e8}, {"strong", 350.7e6, 4.2e8, 8.4e8}};
+
+inline constexpr double full_diameter = 0.30;  ///< of the specimen at scale 1 (m), paper section 2.3
+inline constexpr double full_height = 0.70;    ///< of the specimen at scale 1 (m)
+inline constexpr double grain_diameter = 0.02; ///< at every scale (m)
+
+/// Everything that can be chosen. Values are checked; SI units.
+struct options {
+    // what is tested
+    std::string shape = "4B";          ///< "4B", "14B" or the path of a file
+    std::uint64_t shape_checksum = 0;  ///< of the pebbles of a shape from a file, 0 for a named one
+    std::string strength = "weak";     ///< name of a strength class
+    std::string membrane = "tiles";    ///< "solid" or "tiles"
+    int rings = 14;                    ///< V_sec; 1 for solid
+    int tiles_per_ring = 10;           ///< H_part
+    double confining = 2e6;            ///< (Pa)
+    double scale = 0.4;                ///< 1 is 30 x 70 cm
+    double strain = 0.25;              ///< axial strain at the end of shear
+    std::string protocol = "triaxial"; ///< "triaxial", "isotropic" or "unload"
+    double inertial_number = 1e-4;     ///< limit in shear
+    double friction = 0.3;             ///< between pebbles
+    double damping = 0.7;              ///< local damping
+    std::uint64_t seed = 1;
+    // how grains break
+    std::string criterion = "nominal_force";
+    std::string replacement = "modified"; ///< "modified" or "none"
+    std::string birth = "warm";           ///< "warm" or "zero"
+    bond_reading bond_stiffness_reading = bond_reading::force;
+    double bond_stiffness = 9.6e8; ///< normal, in the unit of the reading; shear is half of it
+    // how it is run; none of these changes a result
+    int threads = 0;           ///< 0: as many as the machine has
+    std::filesystem::path out; ///< folder of the results
+    bool resume = false;       ///< go on with the run in `out`
+    bool overwrite = false;    ///< replace the results in `out`
+    double save_every = 300.0; ///< wall time between checkpoints (s)
+    int snapshots = 10;        ///< ParaView snapshots over the shear
+    int rows = 500;            ///< rows of series.csv over the shear
+    bool plots = true;
+    bool quiet = false;
+    std::string stop_after_stage;      ///< stop with a checkpoint when this stage is done (tests)
+    std::int64_t stop_after_steps = 0; ///< stop with a checkpoint after so many steps, 0: do not (tests)
+
+    [[nodiscard]] double diameter() const { return full_diameter * scale; } ///< of the specimen (m)
+    [[nodiscard]] double height() const { return full_height * scale; }     ///< of the specimen (m)
+    [[nodiscard]] const strength_class& rock() const;                       ///< the strength class by its name
+    [[nodiscard]] bool breakable() const { return criterion != "none" && replacement != "none"; }
+};
+
+/// Reads a command line; `done` says that `--help`, `--version` or `--preset` was answered on stdout and there is
+/// nothing to run. With --resume the options of the earlier run are read from its folder. Throws clast::input_error
+/// with option, value, allowed range and a way out.
+struct parsed {
+    options values;
+    bool done = false;
+};
+parsed parse_options(std::vector<std::string> arguments);
+
+/// The options that decide the results, one "name = value" per line: fingerprint of checkpoints, inputs of the summary.
+std::string physics_text(const options& o);
+
+/// Command-line arguments that reproduce the run; stored with its results as `arguments_file`, one per line.
+std::vector<std::string> to_arguments(const options& o);
+inline constexpr const char* arguments_file = "arguments.txt";
+
+/// "2MPa", "150kPa": short text of a stress (Pa).
+std::string stress_text(double pascal);
+
+/// Circumference of the specimen in equal tiles: width of one (m).
+double tile_width(double specimen_diameter, int tiles_per_ring);
+
+/// Table 1 of the paper with our reading of each row (physics decisions D1 to D15).
+std::string paper_preset_text();
+
+} // namespace triaxial

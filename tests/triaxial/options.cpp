@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// The command line of examples/triaxial, compiled into this test. errors_test.sh beside the program runs the binary.
+#include "../../examples/triaxial/options.cpp"
+
+#include <catch.hpp>
+
+using namespace triaxial;
+
+namespace {
+
+options read(std::vector<std::string> arguments) { return parse_options(std::move(arguments)).values; }
+
+std::string refusal(std::vector<std::string> arguments) {
+    try {
+        (void)parse_options(std::move(arguments));
+    } catch (const clast::input_error& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("without options the program runs the small weak 4B specimen in tiles") {
+    const options o = read({});
+    REQUIRE(o.shape == "4B");
+    REQUIRE(o.rock().characteristic == 23.2e6);
+    REQUIRE(o.membrane == "tiles");
+    REQUIRE(o.confining == 2e6);
+    REQUIRE(o.strain == 0.25);
+    REQUIRE(o.diameter() == Approx(0.12).epsilon(1e-14));
+    REQUIRE(o.height() == Approx(0.28).epsilon(1e-14));
+    REQUIRE(o.rings == 14);
+    REQUIRE(o.tiles_per_ring == 10);
+    REQUIRE(o.bond_stiffness == 9.6e8);
+    REQUIRE(o.bond_stiffness_reading == bond_reading::force);
+    REQUIRE(o.breakable());
+    REQUIRE(o.out == "results/4B-tiles-weak-2MPa");
+}
+
+TEST_CASE("at full scale the membrane is that of the paper, at half scale that of the study") {
+    options o = read({"--scale", "1"});
+    REQUIRE(o.rings == 36);
+    REQUIRE(o.tiles_per_ring == 20);
+    REQUIRE(tile_width(o.diameter(), o.tiles_per_ring) == Approx(0.0475).epsilon(1e-3)); // 2 R tan(pi/20)
+    o = read({"--scale", "0.5"});
+    REQUIRE(o.rings == 18);
+    REQUIRE(o.tiles_per_ring == 10);
+    REQUIRE(read({"--scale", "0.5", "--membrane", "solid"}).rings == 1);
+}
+
+TEST_CASE("default tiles are never narrower than a grain") {
+    for (double s = 0.17; s <= 2.0; s += 0.01) {
+        const options o = read({"--scale", fmt::format("{:.2f}", s)});
+        REQUIRE(tile_width(o.diameter(), o.tiles_per_ring) >= grain_diameter);
+        REQUIRE(o.tiles_per_ring >= 8);
+    }
+    REQUIRE(has(refusal({"--scale", "0.16"}), "0.17 to 2"));
+    REQUIRE(read({"--scale", "0.16", "--tiles-per-ring", "6"}).tiles_per_ring == 6); // the user knows better
+}
+
+TEST_CASE("quantities are read in their units") {
+    const options o = read({"--confining=150kPa", "--strain", "0.1", "--save-every", "90s", "--inertial-number", "1e-3",
+                            "--damping=0", "--seed", "18446744073709551615"});
+    REQUIRE(o.confining == Approx(150e3).epsilon(1e-14));
+    REQUIRE(o.strain == 0.1);
+    REQUIRE(o.save_every == 90.0);
+    REQUIRE(o.inertial_number == 1e-3);
+    REQUIRE(o.damping == 0.0);
+    REQUIRE(o.seed == ~std::uint64_t{0});
+    REQUIRE(o.out == "results/4B-tiles-weak-0.15MPa");
+    REQUIRE(read({"--save-every", "2"}).save_every == 120.0); // a bare number is minutes
+    REQUIRE(read({"--save-every", "1h"}).save_every == 3600.0);
+}
+
+TEST_CASE("the bond stiffness is a reading of Table 1 or a value whose unit tells the reading") {
+    REQUIRE(read({"--bond-stiffness", "modulus"}).bond_stiffness_reading == bond_reading::modulus);
+    REQUIRE(read({"--bond-stiffness", "modulus"}).bond_stiffness == 9.6e8);
+    REQUIRE(read({"--bond-stiffness", "per_area"}).bond_stiffness_reading == bond_reading::per_area);
+    options o = read({"--bond-stiffness", "116MN/m"});
+    REQUIRE(o.bond_stiffness_reading == bond_reading::force);
+    REQUIRE(o.bond_stiffness == 116e6);
+    o = read({"--bond-stiffness", "46.8 GPa"});
+    REQUIRE(o.bond_stiffness_reading == bond_reading::modulus);
+    REQUIRE(o.bond_stiffness == Approx(46.8e9).epsilon(1e-14));
+    o = read({"--bond-stiffness", "1e13Pa/m"});
+    REQUIRE(o.bond_stiffness_reading == bond_reading::per_area);
+    REQUIRE(has(refusal({"--bond-stiffness", "5"}), "N/m"));
+}
+
+TEST_CASE("tiles and rings below the size of a pebble are refused with the largest number that fits") {
+    REQUIRE(has(refusal({"--tiles-per-ring", "43"}), "6 to 42"));
+    REQUIRE(refusal({"--tiles-per-ring", "42"}) == "accepted");
+    REQUIRE(has(refusal({"--rings", "32"}), "1 to 31"));
+    REQUIRE(refusal({"--rings", "31"}) == "accepted");
+}
+
+TEST_CASE("the stored arguments give the same options again") {
+    const options o = read({"--shape",
+                            "14B",
+                            "--strength=strong",
+                            "--membrane",
+                            "solid",
+                            "--confining",
+                            "1.5MPa",
+                            "--scale",
+                            "0.3",
+                            "--criterion",
+                            "mean",
+                            "--bond-stiffness",
+                            "0.1GPa/m",
+                            "--birth",
+                            "zero",
+                            "--protocol",
+                            "unload",
+                            "--rows",
+                            "77",
+                            "--no-plots",
+                            "--threads",
+                            "2",
+                            "--inertial-number",
+                            "0.00012345678901234567"});
+    const options again = read(to_arguments(o));
+    REQUIRE(to_arguments(again) == to_arguments(o));
+    REQUIRE(physics_text(again) == physics_text(o));
+    REQUIRE(again.inertial_number == o.inertial_number);
+    REQUIRE(again.bond_stiffness_reading == bond_reading::per_area);
+}
+
+TEST_CASE("every option that decides results changes the fingerprint, and no other does") {
+    const std::string base = physics_text(read({}));
+    for (const std::vector<std::string>& changed :
+         std::vector<std::vector<std::string>>{{"--shape", "14B"},
+                                               {"--strength", "medium"},
+                                               {"--membrane", "solid"},
+                                               {"--rings", "12"},
+                                               {"--tiles-per-ring", "12"},
+                                               {"--confining", "1MPa"},
+                                               {"--scale", "0.3"},
+                                               {"--strain", "24%"},
+                                               {"--protocol", "unload"},
+                                               {"--inertial-number", "2e-4"},
+                                               {"--friction", "0.4"},
+                                               {"--damping", "0.5"},
+                                               {"--seed", "2"},
+                                               {"--criterion", "octahedral"},
+                                               {"--replacement", "none"},
+                                               {"--birth", "zero"},
+                                               {"--bond-stiffness", "1e8N/m"},
+                                               {"--bond-stiffness", "modulus"}})
+        REQUIRE(physics_text(read(changed)) != base);
+    REQUIRE(physics_text(read({"--threads", "7", "--save-every", "1", "--quiet", "--no-plots", "--out", "x"})) == base);
+}
+
+TEST_CASE("a misspelt option is answered with the nearest one") {
+    REQUIRE(has(refusal({"--tile-per-ring", "10"}), "Did you mean --tiles-per-ring?"));
+    REQUIRE(!has(refusal({"--xyz", "10"}), "Did you mean"));
+}
+
+TEST_CASE("the table of the paper names every decision once it matters") {
+    const std::string text = paper_preset_text();
+    for (int d = 1; d <= 15; ++d) REQUIRE(has(text, fmt::format("D{}", d)));
+    for (const char* value : {"23.2 / 43.2 / 350.7", "0.3e8 / 0.5e8 / 4.2e8", "0.6e8 / 1.0e8 / 8.4e8", "46.8 GPa",
+                              "5.8e6", "9.6e8, 4.8e8", "3.2e8", "3.2e6", "58 %"})
+        REQUIRE(has(text, value));
+    for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+        REQUIRE(end - at <= 112);
+}
