@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // One step of a specimen inside its boundary: the anatomy that every policy fits into.
 //
-//   slow contacts and facets (clump against clump, clump against facet)        rows
-//   sub-steps of light bodies (balls, bonded clusters and the clumps that touch them)
-//       fast contacts and facets                                               rows
-//       every body sums its rows in one fixed order, is damped and integrated; clusters sub-cycle their bonds
-//   all other clumps sum, damp, integrate
+//   slow contacts and facets (clump against clump, clump against facet)        rows at t_n
+//   light bodies (balls and bonded clusters) pass through the span around t_n in sub-steps of their own
+//       fast contacts and facets (at least one ball), clumps and facets moved along their velocity    rows
+//       balls sum their rows in one fixed order, are damped and integrated; clusters sub-cycle their bonds
+//   clumps sum slow rows and the mean of the fast ones, are damped and integrated
 //   criterion and replacement every few steps; servo; boundary moves
 //
-// Multirate: contacts that involve a ball are integrated with the step that the lightest ball needs, as an impulse
-// multiple-time-step scheme (slow forces kick once per step at its start, fast forces kick in every sub-step), and bonds
-// with a smaller step still. So a replacement never shrinks the step of the specimen, and momentum is exact.
+// Multirate: a contact that involves a ball is integrated with the step that the lightest ball needs, over the span from
+// t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks for.
+// Bonds take a smaller step still. So a replacement never shrinks the step of the specimen, and every force has the
+// opposite force in the same step.
 #pragma once
 
 #include <algorithm>
@@ -62,15 +63,21 @@ struct breakage_state {
     std::vector<std::int32_t> fragment;                      ///< per pebble: smallest pebble of its piece
     std::vector<std::uint8_t> bonded;                        ///< per pebble: belongs to a cluster with intact bonds
     std::vector<std::int32_t> balls;                         ///< pebbles that move on their own, ascending
-    std::vector<std::uint8_t> halo;                          ///< per grain: touches a ball, moves in sub-steps
+    std::vector<std::uint8_t> halo;                          ///< per grain: a clump with a ball near by
+    struct mean_load {
+        vec3 force, moment;
+        double dissipated = 0.0;
+    };
+    std::vector<mean_load> fast_load;                        ///< per grain: mean over the sub-steps of this step
     std::vector<fracture_event> events;                      ///< since the last call of take_events
+    double lag = 0.0; ///< s: how far the motion of balls trails t_n between steps (half a step)
     double time = 0.0;
 
     template <class A>
     void archive(A& a) {
         for (auto& p : pools) p.archive(a); // lattices are remade from shapes, only their state is kept
         for (auto& m : members) a(m);
-        a(fragment, bonded, balls, halo); // events must have been taken
+        a(fragment, bonded, balls, halo, lag); // events must have been taken
     }
 };
 
@@ -139,17 +146,18 @@ class engine {
         if (must_rebuild_) rebuild();
         if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
         evaluate(slow_, slow_wall_, dt_, 0.0);
-        const bool light = has_light_bodies();
         if constexpr (breakable)
-            if (light) evaluate(fast_, fast_wall_, dt_ / fast_steps_, 0.0);
-        control(light);
+            if (has_light_bodies()) advance_light();
+        control();
         if constexpr (breakable && has_criterion)
             if (breakage_on && totals_.steps % settings.replacement.check_interval == 0) mark_critical();
-        if constexpr (breakable)
-            if (light) advance_light();
         integrate_clumps();
         finish_boundary();
-        if constexpr (breakable) replace_marked();
+        if constexpr (breakable) {
+            broken_.lag = 0.5 * dt_;
+            place_balls();
+            replace_marked();
+        }
         totals_.time += dt_;
         ++totals_.steps;
         check_displacements();
@@ -291,37 +299,51 @@ class engine {
 
     // ---- forces ---------------------------------------------------------------------------------------------------
 
+    /// Rows of a list and its wall. h: span since the last evaluation; ahead: time of the evaluation minus t_n.
     void evaluate(contact_list<history>& list, std::vector<wall_row>& wall, double h, double ahead) {
-        settings.run.for_each(list.size(), [&](std::size_t k) { evaluate_contact(list, k, h); });
+        settings.run.for_each(list.size(), [&](std::size_t k) { evaluate_contact(list, k, h, ahead); });
         settings.run.for_each(wall.size(), [&](std::size_t k) { evaluate_wall(wall[k], h, ahead); });
     }
 
-    void evaluate_contact(contact_list<history>& list, std::size_t k, double h) {
+    /// Where a pebble and its body are, `ahead` seconds from t_n, and how they move. Balls are placed by their sub-step.
+    struct kinematics {
+        vec3 x;      ///< pebble
+        vec3 centre; ///< body
+        vec3 v, w;   ///< body
+    };
+    kinematics kinematics_of(std::size_t pebble, double ahead) const {
+        const std::size_t owner = at(grains.owner[pebble]);
+        const body_motion& m = grains.motion[owner];
+        const vec3& x = grains.position[pebble];
+        if (owner >= grains.grain_count()) return {x, x, m.v, m.w};
+        if (ahead == 0.0) return {x, m.x, m.v, m.w};
+        return {x + ahead * (m.v + cross(m.w, x - m.x)), m.x + ahead * m.v, m.v, m.w};
+    }
+
+    void evaluate_contact(contact_list<history>& list, std::size_t k, double h, double ahead) {
         force_row& row = list.rows[k];
         if (list.bonded[k] != 0) return;
         const auto i = at(list.pairs[k].i), j = at(list.pairs[k].j);
-        const vec3 d = grains.position[j] - grains.position[i];
+        const kinematics a = kinematics_of(i, ahead), b = kinematics_of(j, ahead);
+        const vec3 d = b.x - a.x;
         const double ri = grains.radius[i], rj = grains.radius[j];
         const double reach = ri + rj, distance2 = norm2(d);
         history local{};
         if constexpr (contact_list<history>::remembers) local = list.history[k];
         if (distance2 >= reach * reach) {
-            if constexpr (!contact_list<history>::remembers) {
-                if (row.depth > 0.0) row = {};
-                return;
-            } else if (contact::is_resting(local)) {
+            bool resting = true;
+            if constexpr (contact_list<history>::remembers) resting = contact::is_resting(local);
+            if (resting) {
                 if (row.depth > 0.0) row = {};
                 return;
             }
         }
         const double distance = std::sqrt(distance2), depth = reach - distance;
         const vec3 n = d / distance;
-        const vec3 point = grains.position[i] + (ri - 0.5 * depth) * n;
-        const body_motion& a = grains.motion[at(grains.owner[i])];
-        const body_motion& b = grains.motion[at(grains.owner[j])];
+        const vec3 point = a.x + (ri - 0.5 * depth) * n;
         // relative motion of i against j over the last step, split by the normal of mid-step
-        const vec3 relative = a.v + cross(a.w, point - a.x) - b.v - cross(b.w, point - b.x);
-        const vec3 centres = b.v + cross(b.w, grains.position[j] - b.x) - a.v - cross(a.w, grains.position[i] - a.x);
+        const vec3 relative = a.v + cross(a.w, point - a.centre) - b.v - cross(b.w, point - b.centre);
+        const vec3 centres = b.v + cross(b.w, b.x - b.centre) - a.v - cross(a.w, a.x - a.centre);
         const vec3 mid = d - (0.5 * h) * centres;
         const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
         const double spin = 0.5 * h * dot(a.w + b.w, n);
@@ -376,11 +398,11 @@ class engine {
                 const double k = (platen ? settings.platen_contact : settings.lateral_contact)
                                      .normal_stiffness({0, 0, 1, platen ? t.depth : way, r, r});
                 if (platen || couplings == nullptr || w.touch.size == 1) {
-                    loads[at(t.facet)].add(t, share * f, k);
+                    loads[at(t.facet)].add(t, share * f, share * k);
                     continue;
                 }
                 const auto i = static_cast<std::size_t>(lateral);
-                loads[at(t.facet)].add(t, share * f, k * sharing[i][i]);
+                loads[at(t.facet)].add(t, share * f, share * k * sharing[i][i]);
                 for (std::size_t j = 0; j < i; ++j)
                     couplings->push_back({seen[j]->facet, t.facet, k * sharing[i][j] * seen[j]->along * t.along});
                 seen[at(lateral++)] = &t;
@@ -395,7 +417,7 @@ class engine {
     };
     /// Sum of the rows of one body about its centre, in the order of the list. Friction losses are booked on side i.
     load_sum sum_rows(const incidence& of, std::size_t body, const contact_list<history>& list,
-                      const std::vector<wall_row>& wall, const vec3& centre) const {
+                      const std::vector<wall_row>& wall, const vec3& centre, double ahead) const {
         load_sum s;
         const std::size_t contacts = list.size();
         for (std::uint32_t entry : of.of(body)) {
@@ -409,7 +431,7 @@ class engine {
             } else {
                 const wall_row& w = wall[r - contacts];
                 s.force += w.force;
-                s.moment += cross(grains.position[at(w.pebble)] - centre, w.force);
+                s.moment += cross(kinematics_of(at(w.pebble), ahead).x - centre, w.force);
             }
         }
         return s;
@@ -417,31 +439,19 @@ class engine {
 
     // ---- integration ----------------------------------------------------------------------------------------------
 
-    /// Kick of a clump: loads over their spans, local damping on the total over `damped` seconds.
-    void kick_clump(std::size_t g, const load_sum& slow, double slow_span, const load_sum& fast, double fast_span,
-                    double damped) {
+    /// Kick of a clump by its loads, with local damping of force and moment.
+    void kick_clump(std::size_t g, const load_sum& load, double h) {
         const grain& one = grains.grains[g];
         body_motion& m = grains.motion[g];
         clump_rotation& turn = grains.turning[g];
-        vec3 impulse = slow_span * slow.force + fast_span * fast.force;
-        vec3 twist = slow_span * slow.moment + fast_span * fast.moment;
-        vec3 df, dm;
-        if (damped > 0.0) {
-            df = damping_force(slow.force + fast.force, m.v, settings.damping);
-            const vec3 moment = rotate_back(turn.q, slow.moment + fast.moment);
-            dm = rotate(turn.q, damping_force(moment, rotate_back(turn.q, m.w), settings.damping));
-            impulse += damped * df;
-            twist += damped * dm;
-        }
-        const vec3 before = m.v, spin_before = m.w;
-        m.v += (1.0 / grains.mass_of(one)) * impulse;
-        turn.l += twist;
-        if (damped > 0.0) {
-            const vec3 spin_after = spin_of(turn.q, turn.l, grains.inverse_inertia(one));
-            grains.losses[g].damping -=
-                0.5 * damped * (dot(df, before + m.v) + dot(dm, spin_before + spin_after));
-        }
-        grains.losses[g].friction += slow.dissipated + fast.dissipated;
+        const vec3 df = damping_force(load.force, m.v, settings.damping);
+        const vec3 dm = damping_moment(turn.q, load.moment, m.w, settings.damping);
+        const vec3 v = m.v, w = m.w;
+        m.v += (h / grains.mass_of(one)) * (load.force + df);
+        turn.l += h * (load.moment + dm);
+        const vec3 spin = spin_of(turn.q, turn.l, grains.inverse_inertia(one));
+        grains.losses[g].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + spin));
+        grains.losses[g].friction += load.dissipated;
     }
     void drift_clump(std::size_t g, double h) {
         body_motion& m = grains.motion[g];
@@ -463,62 +473,79 @@ class engine {
             if (needed_[p] == needed) grains.position[p] = grains.motion[g].x + turn * s.pebbles[k].offset;
         }
     }
-    bool is_halo(std::size_t g) const {
-        if constexpr (breakable) return broken_.halo[g] != 0;
-        return false;
-    }
-
     void integrate_clumps() {
         settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-            if (!grains.is_clump(g) || is_halo(g)) return;
-            kick_clump(g, sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x), dt_, {}, 0.0, dt_);
+            if (!grains.is_clump(g)) return;
+            load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x, 0.0);
+            if constexpr (breakable)
+                if (broken_.halo[g] != 0) {
+                    load.force += broken_.fast_load[g].force;
+                    load.moment += broken_.fast_load[g].moment;
+                    load.dissipated += broken_.fast_load[g].dissipated;
+                }
+            kick_clump(g, load, dt_);
             drift_clump(g, dt_);
         });
     }
 
-    /// Sub-steps of balls, clusters and the clumps that they touch. Fast forces at the start are already evaluated.
+    /// Balls and clusters from t_n - lag to t_n + dt/2 in sub-steps; the mean of what they do to clumps and facets.
     void advance_light() {
         if constexpr (breakable) {
-            const double h = dt_ / fast_steps_;
+            const double span = broken_.lag + 0.5 * dt_;
+            const double h = span / fast_steps_, share = 1.0 / fast_steps_;
+            broken_.fast_load.assign(grains.grain_count(), {});
             std::fill(work_loads_.begin(), work_loads_.end(), boundaries::facet_load{});
             for (int k = 0; k < fast_steps_; ++k) {
-                if (k > 0) evaluate(fast_, fast_wall_, h, k * h);
-                add_loads(fast_wall_, 1.0 / fast_steps_, work_loads_);
+                const double ahead = (k + 0.5) * h - broken_.lag;
+                place_balls(0.5 * h);
+                evaluate(fast_, fast_wall_, h, ahead);
+                couplings_.clear(); // those of the last sub-step are kept
+                add_loads(fast_wall_, share, work_loads_, &couplings_);
                 settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-                    if (!grains.is_clump(g) || broken_.halo[g] == 0) return;
-                    const vec3 x = grains.motion[g].x;
-                    const load_sum fast = sum_rows(fast_of_, g, fast_, fast_wall_, x);
-                    if (k == 0)
-                        kick_clump(g, sum_rows(slow_of_, g, slow_, slow_wall_, x), dt_, fast, h, dt_);
-                    else
-                        kick_clump(g, {}, 0.0, fast, h, 0.0);
-                    drift_clump(g, h);
+                    if (broken_.halo[g] == 0) return;
+                    const body_motion& m = grains.motion[g];
+                    const load_sum s = sum_rows(fast_of_, g, fast_, fast_wall_, m.x + ahead * m.v, ahead);
+                    breakage_state::mean_load& mean = broken_.fast_load[g];
+                    mean.force += share * s.force;
+                    mean.moment += share * s.moment;
+                    mean.dissipated += s.dissipated;
                 });
                 settings.run.for_each(broken_.balls.size(), [&](std::size_t b) {
                     const std::int32_t p = broken_.balls[b];
                     if (broken_.bonded[at(p)] == 0) advance_ball(at(p), h);
                 });
+                broken_.time = totals_.time + ahead;
                 for (std::size_t s = 0; s < broken_.pools.size(); ++s) advance_clusters(s, h);
-                broken_.time = totals_.time + (k + 1) * h;
             }
         }
     }
 
+    /// Places balls where they will be in `later` seconds at their velocity (by default at t_n).
+    void place_balls(double later) {
+        if constexpr (breakable)
+            settings.run.for_each(broken_.balls.size(), [&](std::size_t k) {
+                const body_motion& m = grains.motion[ball(broken_.balls[k])];
+                grains.position[at(broken_.balls[k])] = m.x + later * m.v;
+            });
+    }
+    void place_balls() { place_balls(broken_.lag); }
+
     void advance_ball(std::size_t p, double h) {
         const std::size_t b = ball(static_cast<std::int32_t>(p));
         body_motion& m = grains.motion[b];
-        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, m.x);
+        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[p], 0.0);
         const vec3 df = damping_force(s.force, m.v, settings.damping);
         const vec3 dm = damping_force(s.moment, m.w, settings.damping);
         const vec3 v = m.v, w = m.w;
         m.v += (h / grains.ball_mass(p)) * (s.force + df);
         m.w += (h / grains.ball_inertia(p)) * (s.moment + dm);
-        m.x += h * m.v;
-        grains.position[p] = m.x;
+        m.x += 0.5 * h * (v + m.v);
         grains.losses[b].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + m.w));
         grains.losses[b].friction += s.dissipated;
     }
 
+    /// Clusters feel the contact forces of the middle of the sub-step, constant over it, while their bonds take small
+    /// steps. Forces held on from the instant at which they were evaluated would feed energy into every contact.
     void advance_clusters(std::size_t which, double h) {
         if constexpr (breakable) {
             bonds::cluster_pool& pool = broken_.pools[which];
@@ -544,7 +571,7 @@ class engine {
                         for (std::size_t k = 0; k < n; ++k) {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             const body_motion& m = grains.motion[b];
-                            const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, m.x);
+                            const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[first[l] + k], 0.0);
                             balls[l * n + k] = {m.v, m.w};
                             load[l * n + k] = {s.force, s.moment};
                             grains.losses[b].friction += s.dissipated;
@@ -560,10 +587,9 @@ class engine {
                         for (std::size_t k = 0; k < n; ++k) {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             body_motion& m = grains.motion[b];
+                            m.x += moved[l * n + k];
                             m.v = balls[l * n + k].velocity;
                             m.w = balls[l * n + k].spin;
-                            m.x += moved[l * n + k];
-                            grains.position[first[l] + k] = m.x;
                         }
                         grains.losses[ball(static_cast<std::int32_t>(first[l]))].damping += lost[l];
                     }
@@ -728,7 +754,8 @@ class engine {
                     const std::size_t p = at(one.first) + k;
                     const std::size_t b = ball(static_cast<std::int32_t>(p));
                     const vec3 x = grains.position[p];
-                    grains.motion[b] = {x, grains.motion[g].v + cross(spin, x - grains.motion[g].x), spin};
+                    const vec3 v = grains.motion[g].v + cross(spin, x - grains.motion[g].x);
+                    grains.motion[b] = {x - broken_.lag * v, v, spin}; // the motion of a ball trails t_n by the lag
                     grains.owner[p] = static_cast<std::int32_t>(b);
                     broken_.bonded[p] = 1;
                     broken_.balls.push_back(static_cast<std::int32_t>(p));
@@ -746,25 +773,22 @@ class engine {
 
     // ---- boundary -------------------------------------------------------------------------------------------------
 
-    void control(bool light) {
-        std::fill(loads_.begin(), loads_.end(), boundaries::facet_load{});
-        couplings_.clear();
+    /// Loads of this step, the mean of sub-steps included, and the velocities that the boundary takes on from them.
+    void control() {
+        if (has_light_bodies())
+            loads_ = work_loads_;
+        else
+            loads_.assign(loads_.size(), {}), couplings_.clear();
         add_loads(slow_wall_, 1.0, loads_, &couplings_);
-        if (light) add_loads(fast_wall_, 1.0, loads_, &couplings_);
         old_speed_.resize(loads_.size());
         for (std::size_t f = 0; f < loads_.size(); ++f) old_speed_[f] = boundary.velocity(static_cast<int>(f));
         boundary.control(loads_, drives, dt_, couplings_);
     }
     void finish_boundary() {
         // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
-        if (!has_light_bodies()) {
-            work_loads_ = loads_;
-        } else {
-            add_loads(slow_wall_, 1.0, work_loads_);
-        }
         double work = 0.0;
-        for (std::size_t f = 0; f < work_loads_.size(); ++f)
-            work += work_loads_[f].force * 0.5 * (old_speed_[f] + boundary.velocity(static_cast<int>(f)));
+        for (std::size_t f = 0; f < loads_.size(); ++f)
+            work += loads_[f].force * 0.5 * (old_speed_[f] + boundary.velocity(static_cast<int>(f)));
         totals_.boundary_work += work * dt_;
         boundary.advance(dt_);
         wall_travel_ += boundary.fastest() * dt_;
@@ -781,7 +805,8 @@ class engine {
             const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
             const double reach = grains.shape_of(grains.grains[g]).circumscribed_radius;
             double moved = norm(grains.motion[g].x - reference_[g]) + reach * turned_by;
-            if (is_halo(g)) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
+            if constexpr (breakable)
+                if (broken_.halo[g] != 0) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
             return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
         });
         double largest = bodies;
@@ -789,7 +814,7 @@ class engine {
             largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
                 const std::size_t b = ball(broken_.balls[k]);
                 const double moved =
-                    norm(grains.motion[b].x - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                    norm(grains.position[at(broken_.balls[k])] - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
                 return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
             });
         if (!std::isfinite(largest)) explain_nan();
@@ -863,7 +888,8 @@ class engine {
         list_walls();
         index_rows();
         reference_.resize(grains.motion.size());
-        for (std::size_t b = 0; b < grains.motion.size(); ++b) reference_[b] = grains.motion[b].x;
+        for (std::size_t b = 0; b < grains.motion.size(); ++b)
+            reference_[b] = b < ng ? grains.motion[b].x : grains.position[b - ng];
         reference_turn_.resize(ng);
         for (std::size_t g = 0; g < ng; ++g) reference_turn_[g] = grains.turning[g].q;
         wall_travel_ = 0.0;
@@ -1019,7 +1045,8 @@ class engine {
                 }
                 k = end;
             }
-            fast_steps_ = std::max(1, static_cast<int>(std::ceil(dt_ / limit - 1e-9)));
+            // the span is (old dt + dt) / 2, and dt grows by 2 % at most
+            fast_steps_ = std::max(1, static_cast<int>(std::ceil(std::max(dt_, 0.5 * dt_ + broken_.lag) / limit - 1e-9)));
         }
     }
     double fragment_limit(std::int32_t piece, std::size_t begin, std::size_t end) const {

@@ -22,9 +22,13 @@ template <class Engine, class F>
 void each_branch(const Engine& e, F&& f) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
+    const auto centre = [&](std::size_t pebble) { // of its body
+        const std::size_t owner = at(s.owner[pebble]);
+        return owner < s.grain_count() ? s.motion[owner].x : s.position[pebble];
+    };
     e.each_contact([&](const auto& row, const auto& pair) {
         if (row.depth == 0.0) return;
-        const vec3 branch = s.motion[at(s.owner[at(pair.j)])].x - s.motion[at(s.owner[at(pair.i)])].x;
+        const vec3 branch = centre(at(pair.j)) - centre(at(pair.i));
         f(-row.force, branch, row.point);
     });
     e.each_wall_row([&](const auto& w) {
@@ -34,7 +38,7 @@ void each_branch(const Engine& e, F&& f) {
             const double size =
                 t.facet < boundaries::first_lateral_facet ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
             const vec3 point = s.position[p] - s.radius[p] * t.normal;
-            f(-size * t.normal, point - s.motion[at(s.owner[p])].x, point);
+            f(-size * t.normal, point - centre(p), point);
         }
     });
     if constexpr (Engine::breakable) {

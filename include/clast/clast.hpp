@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Everything that a simulator needs. Files (CSV, ParaView, checkpoints, plots) are in clast/io and included apart.
+#pragma once
+
+#include <clast/boundaries/ring_walls.hpp>
+#include <clast/boundaries/solid_strips.hpp>
+#include <clast/boundaries/tiles.hpp>
+#include <clast/contacts/linear.hpp>
+#include <clast/criteria/none.hpp>
+#include <clast/criteria/one_of.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/grains/shape.hpp>
+#include <clast/protocol/triaxial.hpp>
+#include <clast/replacements/modified.hpp>
+#include <clast/replacements/none.hpp>
+#include <clast/searches/brute_force.hpp>
+#include <clast/searches/cell_grid.hpp>
+#include <clast/version.hpp>

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// A whole triaxial test of the paper, made from a few strong quantities: what most users start from.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <clast/boundaries/faceted_cylinder.hpp>
+#include <clast/contacts/linear.hpp>
+#include <clast/core/errors.hpp>
+#include <clast/core/quantity.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/grains/shape.hpp>
+#include <clast/protocol/packing.hpp>
+#include <clast/protocol/runner.hpp>
+#include <clast/protocol/stage.hpp>
+
+namespace clast {
+
+/// Stiffness and friction of the pieces as Table 1 of the paper prints them; a contact inherits from both of its pieces
+/// in series. Platens and membrane are frictionless (paper section 1: the usual frictionless walls).
+struct table_1 {
+    contacts::piece pebble{5.8e6, 2.9e6, 0.3};
+    contacts::piece platen{3.2e8, 1.6e8, 0.0};
+    contacts::piece membrane{3.2e6, 1.6e6, 0.0};
+    double density = 2650.0; ///< kg/m^3; not given in the paper: it enters the inertial number and the time step only
+};
+
+/// What a triaxial test is made of. Members without a default must be given, or the program does not compile.
+template <triaxial_policies P>
+struct triaxial_setup {
+    shape grain;                             ///< template of all grains
+    quantities::length diameter;             ///< of the specimen: of the circle that the membrane's polygon circumscribes
+    quantities::length height;               ///< of the specimen as packed
+    quantities::stress confining;            ///< sigma_3 of consolidation and shear
+    typename P::breakage breakage;           ///< criterion, {} for criteria::none
+    typename P::replacement replacement;     ///< {} for replacements::none
+    double porosity = 0.58;                  ///< as packed, counted with pebble volumes (paper section 2.3)
+    int rings = 36;                          ///< V_sec; solid strips ignore it
+    int tiles_per_ring = 20;                 ///< H_part
+    table_1 materials{};
+    double inertial_number = 1e-4;           ///< largest in shear (paper section 2.2)
+    double damping = 0.7;                    ///< local damping
+    double safety = 0.8;                     ///< of the time-step estimate
+    double vessel = 1.8;                     ///< size of the cloud's vessel over that of the specimen
+    std::uint64_t seed = 1;
+    int threads = 1;                         ///< never changes a result
+    std::int64_t rows = 500;                 ///< rows of the series over 25 % of strain
+};
+
+/// Stages of the paper's protocol (section 2.3), as data. Take them, change them, or write your own.
+namespace protocol {
+
+/// Cloud to specimen: compaction by moving walls and grains, then relaxation at fixed walls until the unbalanced ratio
+/// is below 0.1 % and p' below 1 kPa in three spheres. A specimen that stays loaded tries lower frictions, and as a last
+/// resort servo control to 1 kPa.
+inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
+    using namespace literals;
+    std::vector<stage> s;
+    s.push_back({.name = "compact",
+                 .axial = drive_by::size(height),
+                 .lateral = drive_by::size(0.5 * diameter),
+                 .end = until::size_reached(),
+                 .breakage = false,
+                 .if_stuck = "The specimen is denser than its grains can be packed: raise the porosity."});
+    s.push_back({.name = "relax",
+                 .end = (until::unbalanced_below(1e-3) && until::spheres_below(1_kPa)) || until::unloaded(0.8_N),
+                 .most_steps = 200'000,
+                 .breakage = false,
+                 .then_friction = {0.15, 0.05, 0.0},
+                 .give_up_gently = true});
+    s.push_back({.name = "seat",
+                 .axial = drive_by::stress(1_kPa),
+                 .lateral = drive_by::stress(1_kPa),
+                 .end = until::stresses_within(0.05) && until::unbalanced_below(1e-2),
+                 .most_steps = 400'000,
+                 .breakage = false,
+                 .friction = 0.0,
+                 .skip_if_relaxed = true,
+                 .if_stuck = "The specimen cannot carry 1 kPa evenly: raise the porosity."});
+    return s;
+}
+
+/// Servo control of membrane and platens to an isotropic stress until the error is below 0.1 % and the specimen rests.
+inline stage consolidation(quantities::stress confining) {
+    return {.name = "consolidate",
+            .axial = drive_by::stress(confining),
+            .lateral = drive_by::stress(confining),
+            .end = until::stresses_within(1e-3) && until::unbalanced_below(1e-3),
+            .membrane_here = true,
+            .if_stuck = "Grains may go on breaking or rearranging: lower the stress, or allow more steps."};
+}
+
+/// Shear by both platens at a limited inertial number, at constant lateral stress.
+inline stage shear(quantities::stress confining, quantities::ratio strain, double inertial_number = 1e-4) {
+    return {.name = "shear",
+            .axial = drive_by::inertial_number(inertial_number),
+            .lateral = drive_by::stress(confining),
+            .end = until::axial_strain(strain),
+            .most_steps = 100'000'000,
+            .reference_here = true};
+}
+
+/// Extension from the end of shear until q has fallen to the given value.
+inline stage unloading(quantities::stress confining, quantities::stress q, double inertial_number = 1e-4) {
+    return {.name = "unload",
+            .axial = drive_by::inertial_number(-inertial_number),
+            .lateral = drive_by::stress(confining),
+            .end = until::deviator_below(q),
+            .most_steps = 100'000'000};
+}
+
+/// The paper's test: preparation, consolidation, shear.
+inline std::vector<stage> triaxial_compression(quantities::length diameter, quantities::length height,
+                                               quantities::stress confining, quantities::ratio strain,
+                                               double inertial_number = 1e-4) {
+    std::vector<stage> s = preparation(diameter, height);
+    s.push_back(consolidation(confining));
+    s.push_back(shear(confining, strain, inertial_number));
+    return s;
+}
+
+} // namespace protocol
+
+/// Specimen, boundary, engine and runner of one test, ready to run.
+template <triaxial_policies P>
+class triaxial_test {
+  public:
+    using boundary_type = typename P::boundary;
+    using runner_type = runner<P>;
+
+    /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...).
+    triaxial_test(triaxial_setup<P> setup, std::vector<stage> stages)
+        : setup_(check(std::move(setup))), sim_(make_engine(setup_)),
+          run_(sim_, make_plan(setup_, std::move(stages)), [s = membrane_settings(setup_)](const boundary_type& vessel) {
+              boundaries::cylinder_settings m = s;
+              m.radius = vessel.apothem(boundaries::first_lateral_facet);
+              m.bottom = vessel.bottom();
+              m.top = vessel.top();
+              return boundary_type(m);
+          }) {}
+    triaxial_test(const triaxial_test&) = delete;
+    triaxial_test& operator=(const triaxial_test&) = delete;
+
+    /// Runs to the end of the last stage, or until the observer asks to stop (then false).
+    bool run(observer& watch) { return run_.run(watch) == runner_type::outcome::finished; }
+
+    const triaxial_setup<P>& setup() const { return setup_; }
+    engine<P>& sim() { return sim_; }
+    const engine<P>& sim() const { return sim_; }
+    runner_type& protocol() { return run_; }
+    const runner_type& protocol() const { return run_; }
+
+    template <class A>
+    void archive(A& a) {
+        run_.archive(a);
+    }
+
+  private:
+    static triaxial_setup<P> check(triaxial_setup<P> s) {
+        const auto demand = [](bool good, const char* name, double value, const char* allowed, const char* way_out) {
+            if (!good) throw input_error(name, fmt::format("{:g}", value), allowed, way_out);
+        };
+        const double d = s.diameter.si(), h = s.height.si();
+        demand(!s.grain.pebbles.empty(), "grain", 0, "a shape with pebbles", "Take shapes::tetrahedron_4(0.02).");
+        demand(s.porosity > 0.2 && s.porosity < 0.95, "porosity", s.porosity, "0.2 to 0.95", "The paper uses 0.58.");
+        demand(d >= 3.0 * s.grain.diameter, "diameter (m)", d, "at least 3 grain diameters", "Make the specimen larger.");
+        demand(h >= 3.0 * s.grain.diameter, "height (m)", h, "at least 3 grain diameters", "Make the specimen larger.");
+        demand(s.confining.si() > 0.0, "confining (Pa)", s.confining.si(), "> 0", "The paper uses 1.5 and 2 MPa.");
+        demand(s.tiles_per_ring >= 6, "tiles_per_ring", s.tiles_per_ring, ">= 6", "The paper uses 20.");
+        demand(s.damping >= 0.0 && s.damping < 1.0, "damping", s.damping, "0 to below 1", "0.7 is the default.");
+        demand(s.safety > 0.0 && s.safety <= 1.0, "safety", s.safety, "above 0, at most 1", "0.8 is the default.");
+        demand(s.inertial_number > 0.0 && s.inertial_number <= 1e-2, "inertial_number", s.inertial_number,
+               "above 0, at most 0.01", "1e-4 is quasi-static; 1e-3 is the usual upper bound.");
+        demand(s.vessel >= 1.2, "vessel", s.vessel, "at least 1.2", "1.8 is the default.");
+        demand(s.threads >= 1, "threads", s.threads, ">= 1", "Take available_threads().");
+        const double pebble = 2.0 * smallest_radius(s.grain);
+        const double width = 2.0 * std::tan(std::numbers::pi / s.tiles_per_ring) * 0.5 * d;
+        demand(width >= pebble, "tiles_per_ring", s.tiles_per_ring, "tiles at least as wide as the smallest pebble",
+               "Take fewer tiles per ring.");
+        if constexpr (boundary_type::moves != boundaries::moving_unit::wall)
+            demand(h / s.rings >= pebble, "rings", s.rings, "tiles at least as high as the smallest pebble",
+                   "Take fewer rings.");
+        return s;
+    }
+    static double smallest_radius(const shape& s) {
+        double r = s.circumscribed_radius;
+        for (const shape_pebble& p : s.pebbles) r = std::min(r, p.radius);
+        return r;
+    }
+    static boundaries::cylinder_settings membrane_settings(const triaxial_setup<P>& s) {
+        boundaries::cylinder_settings m;
+        m.radius = 0.5 * s.diameter.si();
+        m.bottom = -0.5 * s.height.si();
+        m.top = 0.5 * s.height.si();
+        m.rings = s.rings;
+        m.tiles_per_ring = s.tiles_per_ring;
+        m.platen_stiffness = s.materials.platen.normal_stiffness;
+        m.tile_stiffness = s.materials.membrane.normal_stiffness;
+        m.smallest_radius = smallest_radius(s.grain);
+        m.contact_stiffness_floor = contacts::linear::between(s.materials.pebble, s.materials.membrane).kn;
+        return m;
+    }
+    static engine<P> make_engine(const triaxial_setup<P>& s) {
+        specimen sp;
+        sp.density = s.materials.density;
+        sp.shapes.push_back(s.grain);
+        const double r = 0.5 * s.diameter.si(), h = s.height.si();
+        // porosity counts in the polygon that encloses the specimen, not in the inscribed circle
+        const double section = s.tiles_per_ring * std::tan(std::numbers::pi / s.tiles_per_ring) * r * r;
+        const auto count = static_cast<std::size_t>(std::llround((1.0 - s.porosity) * section * h / s.grain.volume));
+        protocol::add_cloud(sp, 0, count, {s.vessel * r, -0.5 * s.vessel * h, 0.5 * s.vessel * h}, s.seed);
+        boundaries::cylinder_settings vessel = membrane_settings(s);
+        vessel.radius *= s.vessel;
+        vessel.bottom *= s.vessel;
+        vessel.top *= s.vessel;
+        // grains set off towards the centre with the walls (paper section 2.3: walls and particles move)
+        const test_plan defaults;
+        const double rate = defaults.packing_rate_before_contact * s.inertial_number *
+                            std::sqrt(s.confining.si() / sp.density) / s.grain.diameter;
+        for (body_motion& m : sp.motion) m.v = -rate * m.x;
+        const auto contact = [&](const contacts::piece& other) {
+            return contacts::linear::between(s.materials.pebble, other);
+        };
+        return engine<P>({.grain_contact = contact(s.materials.pebble),
+                          .platen_contact = contact(s.materials.platen),
+                          .lateral_contact = contact(s.materials.membrane),
+                          .breakage = s.breakage,
+                          .replacement = s.replacement,
+                          .damping = s.damping,
+                          .safety = s.safety,
+                          .skin = 0.025 * s.grain.diameter,
+                          .run = {s.threads}},
+                         std::move(sp), boundary_type(vessel));
+    }
+    static test_plan make_plan(const triaxial_setup<P>& s, std::vector<stage> stages) {
+        test_plan p;
+        p.stages = std::move(stages);
+        p.radius = 0.5 * s.diameter.si();
+        p.height = s.height.si();
+        p.grain_diameter = s.grain.diameter;
+        p.confining = s.confining.si();
+        p.inertial_number = s.inertial_number;
+        p.row_strain = 0.25 / static_cast<double>(s.rows);
+        return p;
+    }
+
+    triaxial_setup<P> setup_;
+    engine<P> sim_;
+    runner_type run_;
+};
+
+} // namespace clast
