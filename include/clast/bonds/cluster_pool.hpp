@@ -37,7 +37,7 @@ struct break_report {
 /// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers it).
 class cluster_pool {
   public:
-    static constexpr std::size_t lanes = 8;
+    static constexpr std::size_t lanes = clast::lanes;
 
     cluster_pool() = default;
     /// damping: coefficient of local damping in [0, 1).
@@ -138,10 +138,10 @@ class cluster_pool {
         }
         const int steps = substeps(dt);
         const double h = dt / steps;
-        if (gather(batch, 0.0, v, w, f, t, axis)) collect(batch, broken); // loads of the bonds as they stand
+        if (gather(batch, 0.0, v, w, f, t, axis)) collect(batch, axis, f, t, broken); // loads of the bonds as they stand
         for (int step = 0; step < steps; ++step) {
             kick(h, v, w, fe, te, f, t, u, live, dissipated);
-            if (gather(batch, h, v, w, f, t, axis)) collect(batch, broken);
+            if (gather(batch, h, v, w, f, t, axis)) collect(batch, axis, f, t, broken);
         }
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
@@ -162,7 +162,7 @@ class cluster_pool {
     }
 
   private:
-    enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, failing_now = 9, fields = 10 };
+    enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
 
     std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
     double& value(std::size_t c, std::size_t b, std::size_t f) { return values_[base(c / lanes, b) + f * lanes + c % lanes]; }
@@ -184,83 +184,69 @@ class cluster_pool {
     void kick(double h, double* v, double* w, const double* fe, const double* te, const double* f, const double* t,
               double* u, const std::array<double, lanes>& live, std::array<double, lanes>& dissipated) const {
         const std::size_t n = shape_.size();
-        std::array<double, lanes> work{};
+        const lane8 on = load8(live.data());
+        lane8 work{};
         for (std::size_t i = 0; i < n; ++i) {
             const double per_mass = h / shape_.mass[i], per_inertia = h / shape_.inertia[i];
-            for (std::size_t a = 0; a < 3; ++a) {
-                const std::size_t k = (i * 3 + a) * lanes;
-#ifdef _OPENMP
-#pragma omp simd
-#endif
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const double force = fe[k + l] + f[k + l], moment = te[k + l] + t[k + l];
-                    const double v0 = v[k + l], w0 = w[k + l];
-                    const double fd = damping_ * std::abs(force) * (v0 > 0.0 ? 1.0 : v0 < 0.0 ? -1.0 : 0.0);
-                    const double td = damping_ * std::abs(moment) * (w0 > 0.0 ? 1.0 : w0 < 0.0 ? -1.0 : 0.0);
-                    const double v1 = v0 + per_mass * (force - fd) * live[l];
-                    const double w1 = w0 + per_inertia * (moment - td) * live[l];
-                    work[l] += 0.5 * h * (fd * (v0 + v1) + td * (w0 + w1)) * live[l];
-                    v[k + l] = v1, w[k + l] = w1;
-                    u[k + l] += h * v1;
-                }
+            for (std::size_t k = i * 3 * lanes; k < (i + 1) * 3 * lanes; k += lanes) {
+                const lane8 force = on * (load8(fe + k) + load8(f + k)), moment = on * (load8(te + k) + load8(t + k));
+                const lane8 v0 = load8(v + k), w0 = load8(w + k);
+                const lane8 fd = damping_ * magnitude(force) * sign_of(v0);
+                const lane8 td = damping_ * magnitude(moment) * sign_of(w0);
+                const lane8 v1 = v0 + per_mass * (force - fd), w1 = w0 + per_inertia * (moment - td);
+                work += fd * (v0 + v1) + td * (w0 + w1);
+                store8(v + k, v1);
+                store8(w + k, w1);
+                store8(u + k, load8(u + k) + h * v1);
             }
         }
-        for (std::size_t l = 0; l < lanes; ++l) dissipated[l] += work[l];
+        store8(dissipated.data(), load8(dissipated.data()) + 0.5 * h * work);
     }
 
-    /// Stretches all bonds of a batch by a step h and sums their loads per ball. True if a bond of a lane failed.
+    /// Stretches all bonds of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
     bool gather(std::size_t batch, double h, const double* v, const double* w, double* f, double* t, const double* axis) {
         const std::size_t n = shape_.size(), m = bonds();
         std::fill(f, f + n * 3 * lanes, 0.0);
         std::fill(t, t + n * 3 * lanes, 0.0);
-        double failures = 0.0;
+        lane8 worst = lane8{} - 1.0;
         for (std::size_t b = 0; b < m; ++b) {
-            const constants c = shape_.bond[b];
+            const constants& c = shape_.bond[b];
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             const double ra = shape_.radius[end_a(b)], rb = shape_.radius[end_b(b)];
             double* const s = values_.data() + base(batch, b);
-            const double* const nb = axis + b * 3 * lanes;
-#ifdef _OPENMP
-#pragma omp simd reduction(+ : failures)
-#endif
-            for (std::size_t l = 0; l < lanes; ++l) {
-                const auto load3 = [l](const double* p) { return vec3{p[l], p[lanes + l], p[2 * lanes + l]}; };
-                const auto add3 = [l](double* p, const vec3& a) {
-                    p[l] += a.x, p[lanes + l] += a.y, p[2 * lanes + l] += a.z;
-                };
-                const auto store3 = [l](double* p, const vec3& a) {
-                    p[l] = a.x, p[lanes + l] = a.y, p[2 * lanes + l] = a.z;
-                };
-                const vec3 normal = load3(nb), wa = load3(w + i), wb = load3(w + j);
-                const double exists = s[alive * lanes + l];
-                state bond{s[normal_force * lanes + l], load3(s + shear * lanes), s[twist * lanes + l],
-                           load3(s + bending * lanes)};
-                stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3(v + i), wa, load3(v + j), wb), wb - wa,
-                        h * exists);
-                s[normal_force * lanes + l] = bond.n;
-                store3(s + shear * lanes, bond.v);
-                s[twist * lanes + l] = bond.mt;
-                store3(s + bending * lanes, bond.mb);
-                const failure_flags fails = failing(c, bond);
-                const double code = exists * (fails.tension ? 1.0 : fails.shear ? 2.0 : 0.0);
-                s[failing_now * lanes + l] = code;
-                failures += code;
-                const wrench wr = loads(bond, normal, ra, rb);
-                add3(f + i, wr.force_a);
-                add3(f + j, -wr.force_a);
-                add3(t + i, wr.moment_a);
-                add3(t + j, wr.moment_b);
-            }
+            const vec3x8 normal = load3x8(axis + b * 3 * lanes), wa = load3x8(w + i), wb = load3x8(w + j);
+            state_x8 bond{load8(s), load3x8(s + shear * lanes), load8(s + twist * lanes), load3x8(s + bending * lanes)};
+            const lane8 step = h * load8(s + alive * lanes);
+            stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3x8(v + i), wa, load3x8(v + j), wb), wb - wa, step);
+            store8(s, bond.n);
+            store3x8(s + shear * lanes, bond.v);
+            store8(s + twist * lanes, bond.mt);
+            store3x8(s + bending * lanes, bond.mb);
+            const auto margin = margins_of(c, bond); // negative where no bond is left: its state is zero
+            worst = larger(worst, larger(margin.tension, margin.shear));
+            const auto wr = loads(bond, normal, ra, rb);
+            store3x8(f + i, load3x8(f + i) + wr.force_a);
+            store3x8(f + j, load3x8(f + j) - wr.force_a);
+            store3x8(t + i, load3x8(t + i) + wr.moment_a);
+            store3x8(t + j, load3x8(t + j) + wr.moment_b);
         }
-        if (failures == 0.0) return false;
-        // a failed bond lets go at once: take its load off the sums
-        for (std::size_t b = 0; b < m; ++b)
+        double largest = worst[0];
+        for (std::size_t l = 1; l < lanes; ++l) largest = std::max(largest, worst[l]);
+        return largest >= 0.0;
+    }
+
+    /// Reports and removes the bonds that fail after a gather, and takes their loads off the sums: a failed bond lets go
+    /// at once.
+    void collect(std::size_t batch, const double* axis, double* f, double* t, std::vector<break_report>& broken) {
+        for (std::size_t b = 0; b < bonds(); ++b)
             for (std::size_t l = 0; l < lanes; ++l) {
                 const std::size_t c = batch * lanes + l;
-                if (c >= size_ || value(c, b, failing_now) == 0.0) continue;
+                if (c >= size_ || !is_intact(c, b)) continue;
+                const state s = get(c, b);
+                const failure_flags fails = failing(shape_.bond[b], s);
+                if (!fails.tension && !fails.shear) continue;
                 const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l], axis[(b * 3 + 2) * lanes + l]};
-                const wrench wr =
-                    loads(get(c, b), normal, shape_.radius[end_a(b)], shape_.radius[end_b(b)]);
+                const wrench wr = loads(s, normal, shape_.radius[end_a(b)], shape_.radius[end_b(b)]);
                 for (int a = 0; a < 3; ++a) {
                     const auto k = static_cast<std::size_t>(a) * lanes + l;
                     f[end_a(b) * 3 * lanes + k] -= wr.force_a[a];
@@ -268,21 +254,10 @@ class cluster_pool {
                     t[end_a(b) * 3 * lanes + k] -= wr.moment_a[a];
                     t[end_b(b) * 3 * lanes + k] -= wr.moment_b[a];
                 }
-            }
-        return true;
-    }
-
-    /// Reports and removes the bonds that failed in the last gather.
-    void collect(std::size_t batch, std::vector<break_report>& broken) {
-        for (std::size_t b = 0; b < bonds(); ++b)
-            for (std::size_t l = 0; l < lanes; ++l) {
-                const std::size_t c = batch * lanes + l;
-                if (c >= size_ || value(c, b, failing_now) == 0.0) continue;
                 broken.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(b),
-                                  value(c, b, failing_now) == 1.0 ? break_mode::tension : break_mode::shear, get(c, b)});
+                                  fails.tension ? break_mode::tension : break_mode::shear, s});
                 put(c, b, {});
                 value(c, b, alive) = 0.0;
-                value(c, b, failing_now) = 0.0;
                 --intact_[c];
             }
     }

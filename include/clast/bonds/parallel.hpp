@@ -6,11 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <string>
 
-#include <fmt/format.h>
-
-#include <clast/core/errors.hpp>
+#include <clast/core/lanes.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -90,17 +87,28 @@ struct state {
     template <class A> void archive(A& a) { a(n, v, mt, mb); }
 };
 
-/// Force and moments that a bond exerts on its two balls.
-struct wrench {
-    vec3 force_a;  ///< on a (N); on b the opposite
-    vec3 moment_a; ///< on a about its centre (N m)
-    vec3 moment_b; ///< on b about its centre (N m)
+/// The same for eight bonds of a kind.
+struct state_x8 {
+    lane8 n;
+    vec3x8 v;
+    lane8 mt;
+    vec3x8 mb;
 };
 
+/// Force and moments that a bond exerts on its two balls.
+template <class Vector>
+struct basic_wrench {
+    Vector force_a;  ///< on a (N); on b the opposite
+    Vector moment_a; ///< on a about its centre (N m)
+    Vector moment_b; ///< on b about its centre (N m)
+};
+using wrench = basic_wrench<vec3>;
+
 /// Adds the increments of one step: dv, dw are the relative velocity at the bond point and the relative spin (b minus
-/// a), n the unit normal from a to b.
-inline void stretch(const constants& c, state& s, const vec3& n, const vec3& dv, const vec3& dw, double dt) {
-    const double un = dot(dv, n), tn = dot(dw, n);
+/// a), n the unit normal from a to b. For one bond (state, vec3, double) or eight of a kind (state_x8, vec3x8, lane8).
+template <class State, class Vector, class Real>
+inline void stretch(const constants& c, State& s, const Vector& n, const Vector& dv, const Vector& dw, const Real& dt) {
+    const auto un = dot(dv, n), tn = dot(dw, n);
     s.n += c.kn * dt * un;
     s.v += (c.ks * dt) * (dv - un * n);
     s.mt += c.kt * dt * tn;
@@ -108,17 +116,19 @@ inline void stretch(const constants& c, state& s, const vec3& n, const vec3& dv,
 }
 
 /// Relative velocity at the bond point of two balls, b minus a (m/s).
-inline vec3 relative_velocity(const vec3& n, double ra, double rb, const vec3& va, const vec3& wa, const vec3& vb,
-                              const vec3& wb) {
+template <class Vector>
+inline Vector relative_velocity(const Vector& n, double ra, double rb, const Vector& va, const Vector& wa, const Vector& vb,
+                                const Vector& wb) {
     return vb - va - cross(ra * wa + rb * wb, n);
 }
 
 /// Force and moments on the balls, with the lever arms from their centres to the bond point.
-inline wrench loads(const state& s, const vec3& n, double ra, double rb) {
-    const vec3 f = s.n * n + s.v;
-    const vec3 m = s.mt * n + s.mb;
-    const vec3 nf = cross(n, s.v);
-    return {f, m + ra * nf, rb * nf - m};
+template <class State, class Vector>
+inline auto loads(const State& s, const Vector& n, double ra, double rb) {
+    const Vector f = s.n * n + s.v;
+    const Vector m = s.mt * n + s.mb;
+    const Vector nf = cross(n, s.v);
+    return basic_wrench<Vector>{f, m + ra * nf, rb * nf - m};
 }
 
 /// Turns shear force and bending moment into the plane of the new normal and with the mean spin about it over dt,
@@ -145,20 +155,33 @@ inline stresses stresses_of(const constants& c, const state& s) {
     return {s.n * c.per_area + norm(s.mb) * c.per_bending, norm(s.v) * c.per_area + std::abs(s.mt) * c.per_twist};
 }
 
-/// Failure without a square root, so that it vectorises: the peripheral stresses against tensile strength, and against
-/// tau_c = c - s tan(phi_b) with s the mean normal stress (no bending), at most the tensile strength.
+/// How far a bond is beyond its strength, in squares of stress (Pa^2), so that no root is needed; it fails at 0 or above.
+/// The peripheral stresses against tensile strength, and against tau_c = c - s tan(phi_b) with s the mean normal stress
+/// (no bending), at most the tensile strength.
+template <class Real>
+struct margins {
+    Real tension;
+    Real shear;
+};
+template <class State>
+inline auto margins_of(const constants& c, const State& s) {
+    using real = decltype(s.n * 1.0);
+    const real mean = s.n * c.per_area;
+    const real none = mean * 0.0;
+    const real left = larger(c.tensile_strength - mean, none); // what bending may still add
+    const real strength = c.cohesion + larger(-mean, none - c.tensile_strength) * c.tan_friction;
+    const real rest = larger(strength - magnitude(s.mt) * c.per_twist, none); // what shear may still add
+    return margins<real>{norm2(s.mb) * (c.per_bending * c.per_bending) - left * left,
+                         norm2(s.v) * (c.per_area * c.per_area) - rest * rest};
+}
+
 struct failure_flags {
     bool tension;
     bool shear;
 };
 inline failure_flags failing(const constants& c, const state& s) {
-    const double mean = s.n * c.per_area;
-    const double left = c.tensile_strength - mean; // what bending may still add
-    const double bending = norm2(s.mb) * c.per_bending * c.per_bending;
-    const double strength = c.cohesion - (mean < c.tensile_strength ? mean : c.tensile_strength) * c.tan_friction;
-    const double rest = strength - std::abs(s.mt) * c.per_twist; // what shear may still add
-    const double shear = norm2(s.v) * c.per_area * c.per_area;
-    return {left <= 0.0 || bending >= left * left, rest <= 0.0 || shear >= rest * rest};
+    const margins<double> m = margins_of(c, s);
+    return {m.tension >= 0.0, m.shear >= 0.0};
 }
 
 /// Utilisation: the larger of sigma/sigma_t and tau/tau_c; a bond fails at 1.

@@ -594,7 +594,7 @@ class engine {
                         grains.losses[ball(static_cast<std::int32_t>(first[l]))].damping += lost[l];
                     }
                 },
-                2);
+                1);
             for (const auto& batch : reports)
                 for (const bonds::break_report& r : batch) record_break(which, r);
         }
@@ -863,7 +863,7 @@ class engine {
                     pebble_pairs(a, b, found[c][light ? 1 : 0]);
                 }
             },
-            2);
+            1);
         contact_list<history> slow, fast;
         for (const auto& part : found) {
             slow.pairs.insert(slow.pairs.end(), part[0].begin(), part[0].end());

@@ -33,7 +33,9 @@ class observer {
     virtual void on_events(const std::vector<fracture_event>&) {}   ///< bonds broken since the last call
     virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
     virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
-    virtual bool stop_requested() { return false; } ///< true: run() returns at the next look
+    /// Between two steps, with all events reported: the place to save a checkpoint.
+    virtual void on_pause() {}
+    virtual bool stop_requested() { return false; } ///< true: run() returns at the next pause
 };
 
 /// Sizes and rates of a test. SI units.
@@ -88,9 +90,9 @@ class runner {
                     continue;
                 }
                 begin_stage();
-                watch.on_stage(current().name, true);
                 clock();
                 report(watch);
+                watch.on_stage(current().name, true);
             }
             sim.step();
             ++stage_steps_;
@@ -111,12 +113,10 @@ class runner {
                 end_stage(watch, true);
             else
                 try_next_friction(watch);
-            if (watch.stop_requested()) {
-                flush_events(watch);
-                return outcome::stopped;
-            }
+            flush_events(watch);
+            watch.on_pause();
+            if (watch.stop_requested() && stage_ < plan.stages.size()) return outcome::stopped;
         }
-        flush_events(watch);
         return outcome::finished;
     }
 

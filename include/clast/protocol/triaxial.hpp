@@ -237,7 +237,7 @@ class triaxial_test {
                           .damping = s.damping,
                           .safety = s.safety,
                           .skin = 0.025 * s.grain.diameter,
-                          .run = {s.threads}},
+                          .run = execution(s.threads)},
                          std::move(sp), boundary_type(vessel));
     }
     static test_plan make_plan(const triaxial_setup<P>& s, std::vector<stage> stages) {

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// The run loop of one bundle: sets the test up, watches it, saves and resumes it, and hands its results to the folder.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <clast/core/errors.hpp>
+#include <clast/io/archive.hpp>
+#include <clast/io/checkpoint.hpp>
+#include <clast/io/progress.hpp>
+#include <clast/protocol/triaxial.hpp>
+
+#include "options.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+
+namespace triaxial {
+
+/// What a checkpoint holds: the test and how far its files had got.
+template <class Test>
+struct saved_run {
+    Test* test;
+    result_position at;
+
+    template <class A>
+    void archive(A& a) {
+        test->archive(a);
+        a(at);
+    }
+};
+
+/// Passes rows, events, snapshots and checkpoints on to the folder of results.
+template <class Test>
+class watcher : public clast::observer {
+  public:
+    watcher(const options& o, Test& test, result_folder& folder, std::string fingerprint)
+        : options_(o), test_(test), folder_(folder), fingerprint_(std::move(fingerprint)), bar_(o.quiet),
+          saved_at_(std::chrono::steady_clock::now()) {
+        next_snapshot_ = 1 + static_cast<int>(std::floor(test_.protocol().axial_strain() / snapshot_strain() + 1e-9));
+    }
+
+    void on_row(const clast::sample& s) override {
+        folder_.row(s);
+        if (s.stage == "shear" && s.axial_strain >= next_snapshot_ * snapshot_strain() * (1.0 - 1e-9)) {
+            snapshot();
+            next_snapshot_ = 1 + static_cast<int>(std::floor(s.axial_strain / snapshot_strain() + 1e-9));
+        }
+    }
+    void on_events(const std::vector<clast::fracture_event>& events) override { folder_.events(events); }
+    void on_stage(const std::string& name, bool begins) override {
+        if (begins && !options_.quiet) bar_.note(fmt::format("{}: until {}", name, end_of(name)));
+        if (name == "shear" && begins) {
+            folder_.start_of_shear(view());
+            next_snapshot_ = 1;
+        }
+        if (name == "shear" && !begins) folder_.end_of_shear(view());
+        if (begins || name == options_.stop_after_stage) snapshot();
+        if (!begins) save_due_ = true;
+        if (!begins && name == options_.stop_after_stage) stop_ = true;
+    }
+    void on_progress(const clast::sample& s, double part, double) override {
+        const std::string text = s.stage == "shear" || s.stage == "unload"
+                                     ? fmt::format("eps_a {:5.2f} %", 100.0 * s.axial_strain)
+                                     : fmt::format("p' {:.0f} kPa", 1e-3 * s.p);
+        bar_.update({s.stage, part, whole(s.stage, part), text, s.q, s.steps});
+    }
+    void on_pause() override {
+        const auto now = std::chrono::steady_clock::now();
+        const bool stop = requested_stop() != 0 || stop_ ||
+                          (options_.stop_after_steps > 0 && test_.sim().totals().steps >= options_.stop_after_steps);
+        if (!stop && !save_due_ && std::chrono::duration<double>(now - saved_at_).count() < options_.save_every) return;
+        save();
+        saved_at_ = now;
+        save_due_ = false;
+        stop_ = stop;
+    }
+    bool stop_requested() override { return stop_; }
+
+    void save() {
+        saved_run<Test> state{&test_, folder_.position()};
+        clast::save_checkpoint(folder_.checkpoint(), fingerprint_, state);
+        saved_step_ = test_.sim().totals().steps;
+    }
+    std::int64_t saved_step() const { return saved_step_; }
+    clast::progress& bar() { return bar_; }
+
+  private:
+    double snapshot_strain() const { return options_.strain / std::max(options_.snapshots, 1); }
+    clast::specimen_view view() {
+        return {test_.protocol().axial_strain(), test_.protocol().pebbles(), test_.protocol().facets()};
+    }
+    void snapshot() {
+        if (options_.snapshots <= 0) return;
+        const clast::specimen_view v = view();
+        folder_.snapshot(test_.sim().time(), v.pebbles, v.facets);
+    }
+    std::string end_of(const std::string& name) const {
+        for (const clast::stage& s : test_.protocol().plan.stages)
+            if (s.name == name) return s.end.text;
+        return {};
+    }
+    /// Part of the run, by what stages usually cost.
+    double whole(const std::string& name, double part) const {
+        double before = 0.0, mine = 0.0, total = 0.0;
+        bool seen = false;
+        for (const clast::stage& s : test_.protocol().plan.stages) {
+            const double weight = s.name == "shear" || s.name == "unload" ? 10.0 : s.name == "seat" ? 0.0 : 1.0;
+            total += weight;
+            if (s.name == name) mine = weight, seen = true;
+            if (!seen) before += weight;
+        }
+        return (before + mine * part) / total;
+    }
+
+    const options& options_;
+    Test& test_;
+    result_folder& folder_;
+    std::string fingerprint_;
+    clast::progress bar_;
+    std::chrono::steady_clock::time_point saved_at_;
+    int next_snapshot_ = 1;
+    bool save_due_ = false;
+    bool stop_ = false;
+    std::int64_t saved_step_ = -1;
+};
+
+/// The stages that --protocol asks for.
+inline std::vector<clast::stage> stages_of(const options& o) {
+    using namespace clast;
+    const quantities::length diameter{o.diameter()}, height{o.height()};
+    const quantities::stress confining{o.confining};
+    std::vector<stage> s = protocol::preparation(diameter, height);
+    s.push_back(protocol::consolidation(confining));
+    if (o.protocol == "isotropic") return s;
+    s.push_back(protocol::shear(confining, quantities::ratio{o.strain}, o.inertial_number));
+    if (o.protocol == "unload")
+        s.push_back(protocol::unloading(confining, quantities::stress{0.05 * o.confining}, o.inertial_number));
+    return s;
+}
+
+template <class P>
+clast::triaxial_setup<P> setup_of(const options& o) {
+    using namespace clast;
+    table_1 materials;
+    materials.pebble.friction = o.friction;
+    typename P::breakage breakage = [&]() -> typename P::breakage {
+        if constexpr (P::breakage::evaluated) {
+            const std::string name = o.criterion == "hertz_calibrated" ? "hertz_contact"
+                                     : o.criterion == "mean"           ? "mean_stress"
+                                                                       : o.criterion;
+            return criteria::by_name(name, criteria::crushing_strength(o.rock().characteristic, grain_diameter, 10.0));
+        } else {
+            return {};
+        }
+    }();
+    typename P::replacement replacement{};
+    if constexpr (P::replacement::makes_bonds) {
+        replacement.bond.reading = o.bond_stiffness_reading == bond_reading::force      ? bonds::stiffness_reading::force
+                                   : o.bond_stiffness_reading == bond_reading::modulus ? bonds::stiffness_reading::modulus
+                                                                                       : bonds::stiffness_reading::per_area;
+        replacement.bond.normal_stiffness = o.bond_stiffness;
+        replacement.bond.shear_stiffness = 0.5 * o.bond_stiffness;
+        replacement.bond.tensile_strength = o.rock().bond_tension;
+        replacement.bond.cohesion = o.rock().bond_cohesion;
+        replacement.how = o.birth == "zero" ? replacements::birth::zero_force : replacements::birth::warm_start;
+    }
+    return {.grain = shapes::by_name(o.shape, grain_diameter),
+            .diameter = quantities::length{o.diameter()},
+            .height = quantities::length{o.height()},
+            .confining = quantities::stress{o.confining},
+            .breakage = std::move(breakage),
+            .replacement = std::move(replacement),
+            .rings = std::max(o.rings, 1),
+            .tiles_per_ring = o.tiles_per_ring,
+            .materials = materials,
+            .inertial_number = o.inertial_number,
+            .damping = o.damping,
+            .seed = o.seed,
+            .threads = o.threads > 0 ? o.threads : available_threads(),
+            .rows = std::max<std::int64_t>(1, std::llround(o.rows * 0.25 / o.strain))};
+}
+
+template <class P>
+int run_bundle(const options& o, const char* name) {
+    using test_type = clast::triaxial_test<P>;
+    const std::string fingerprint = fmt::format("bundle = {}\n{}", name, physics_text(o));
+    test_type test(setup_of<P>(o), stages_of(o));
+    saved_run<test_type> state{&test, {}};
+    if (o.resume) clast::load_checkpoint(o.out / "checkpoint.clast", fingerprint, state);
+    result_folder folder = o.resume ? result_folder(o, state.at) : result_folder(o);
+    watcher<test_type> watch(o, test, folder, fingerprint);
+    if (!o.quiet)
+        watch.bar().note(fmt::format("{} {} grains of {} pebbles, specimen {:.3g} x {:.3g} cm, {} thread{}",
+                                     o.resume ? "resuming:" : "", test.sim().grains.grain_count(),
+                                     test.setup().grain.pebbles.size(), 100.0 * o.diameter(), 100.0 * o.height(),
+                                     test.setup().threads, test.setup().threads == 1 ? "" : "s"));
+    bool finished = false;
+    try {
+        finished = test.run(watch);
+    } catch (const clast::run_error& e) {
+        watch.bar().clear();
+        clast::failure f = e.details;
+        f.advice += watch.saved_step() >= 0
+                        ? fmt::format("\n  last checkpoint: {} (step {}); go on from it with --resume {}",
+                                      folder.checkpoint().string(), watch.saved_step(), folder.path().string())
+                        : "\n  last checkpoint: none was written yet";
+        throw clast::run_error(f);
+    }
+    watch.bar().clear();
+    if (!finished) {
+        fmt::print("stopped at step {} with a checkpoint; go on with\n  --resume {}\n", test.sim().totals().steps,
+                   folder.path().string());
+        return requested_stop() != 0 ? 128 + requested_stop() : 0;
+    }
+    watch.save(); // so that a finished run can be looked at again
+    clast::hash_archive checksum;
+    test.sim().archive(checksum);
+    const auto& counters = test.sim().boundary.counters();
+    folder.finish({.grains = static_cast<std::int64_t>(test.sim().grains.grain_count()),
+                   .pebbles = static_cast<std::int64_t>(test.sim().grains.pebble_count()),
+                   .bonds_per_grain = static_cast<std::int64_t>(test.setup().grain.bonds.size()),
+                   .threads = test.setup().threads,
+                   .bundle = name,
+                   .checksum = checksum.value,
+                   .more = {{"list_rebuilds", static_cast<double>(test.sim().totals().rebuilds)},
+                            {"sub_steps_of_light_bodies", static_cast<double>(test.sim().fast_steps())},
+                            {"tile_steps_at_speed_limit_share",
+                             counters.tile_steps > 0 ? static_cast<double>(counters.capped) /
+                                                           static_cast<double>(counters.tile_steps)
+                                                     : 0.0},
+                            {"latched_pair_steps", static_cast<double>(counters.latched_pair_steps)}}});
+    return 0;
+}
+
+} // namespace triaxial

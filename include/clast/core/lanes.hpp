@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Eight doubles side by side, and vectors of them: the same arithmetic text serves one item or eight.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+#include <clast/core/vector.hpp>
+
+namespace clast {
+
+/// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set, compiled to
+/// what the target has).
+using lane8 = double __attribute__((vector_size(64)));
+inline constexpr std::size_t lanes = 8;
+
+/// From and to memory of any alignment.
+inline lane8 load8(const double* p) {
+    lane8 v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+inline void store8(double* p, const lane8& v) { std::memcpy(p, &v, sizeof v); }
+
+/// Larger of two, absolute value and sign (0 for 0), for one number or for lanes.
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline lane8 larger(const lane8& a, const lane8& b) { return a > b ? a : b; }
+inline double magnitude(double a) { return larger(a, -a); }
+inline lane8 magnitude(const lane8& a) { return larger(a, -a); }
+inline double sign_of(double a) { return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : 0.0; }
+inline lane8 sign_of(const lane8& a) {
+    const lane8 zero{}, one = zero + 1.0;
+    return (a > zero ? one : zero) - (a < zero ? one : zero);
+}
+
+/// Cartesian vectors of eight items.
+struct vec3x8 {
+    lane8 x, y, z;
+};
+inline vec3x8 operator+(const vec3x8& a, const vec3x8& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline vec3x8 operator-(const vec3x8& a, const vec3x8& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline vec3x8 operator*(const lane8& s, const vec3x8& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline vec3x8 operator*(double s, const vec3x8& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline vec3x8& operator+=(vec3x8& a, const vec3x8& b) { return a = a + b; }
+inline lane8 dot(const vec3x8& a, const vec3x8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline lane8 norm2(const vec3x8& a) { return dot(a, a); }
+inline vec3x8 cross(const vec3x8& a, const vec3x8& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// Eight vectors stored as x, y, z blocks of eight.
+inline vec3x8 load3x8(const double* p) { return {load8(p), load8(p + lanes), load8(p + 2 * lanes)}; }
+inline void store3x8(double* p, const vec3x8& v) { store8(p, v.x), store8(p + lanes, v.y), store8(p + 2 * lanes, v.z); }
+
+} // namespace clast
