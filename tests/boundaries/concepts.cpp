@@ -20,7 +20,7 @@ struct archetype {
     double stiffness(int) const { return 1.0; }
     double velocity(int) const { return 0.0; }
     double area(int) const { return 1.0; }
-    void control(std::span<const facet_load>, const drives&, double) {}
+    void control(std::span<const facet_load>, const drives&, double, std::span<const coupling>) {}
     void advance(double) {}
     double fastest() const { return 0.0; }
     double volume() const { return 1.0; }
@@ -38,6 +38,9 @@ struct archetype {
 struct without_archive : archetype {
     template <class A> void archive(A&) = delete;
 };
+struct deaf_to_couplings : archetype {
+    void control(std::span<const facet_load>, const drives&, double) {}
+};
 struct that_cannot_move : archetype {
     void advance() {}
 };
@@ -47,6 +50,7 @@ struct that_cannot_move : archetype {
 static_assert(boundary<archetype>);
 static_assert(boundary<tiles> && boundary<ring_walls> && boundary<solid_strips>);
 static_assert(!saved<without_archive> && !boundary<without_archive>);
+static_assert(!driven<deaf_to_couplings> && !boundary<deaf_to_couplings>);
 static_assert(!driven<that_cannot_move> && !boundary<that_cannot_move>);
 static_assert(!boundary<int>);
 
