@@ -14,6 +14,11 @@
 #include <clast/bonds/parallel.hpp>
 #include <clast/measure/sample.hpp>
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi" // see core/lanes.hpp
+#endif
+
 namespace clast::bonds {
 
 /// What a ball of a cluster brings into a sub-cycle and takes out of it.
@@ -270,3 +275,7 @@ class cluster_pool {
 };
 
 } // namespace clast::bonds
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif

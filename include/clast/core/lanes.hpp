@@ -7,6 +7,12 @@
 
 #include <clast/core/vector.hpp>
 
+// GCC warns that functions of vectors change their calling convention with the instruction set. These are inlined.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace clast {
 
 /// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set, compiled to
@@ -52,3 +58,7 @@ inline vec3x8 load3x8(const double* p) { return {load8(p), load8(p + lanes), loa
 inline void store3x8(double* p, const vec3x8& v) { store8(p, v.x), store8(p + lanes, v.y), store8(p + 2 * lanes, v.z); }
 
 } // namespace clast
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif

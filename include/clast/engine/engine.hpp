@@ -53,7 +53,7 @@ struct engine_settings {
     double safety = 0.8;   ///< of the time-step estimate, in (0, 1]
     double skin = 0.5e-3;  ///< m: pairs with a smaller gap are listed, > 0
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
-    execution run;
+    execution run = execution(1);
 };
 
 /// State that only breakable specimens have.
@@ -549,7 +549,6 @@ class engine {
     void advance_clusters(std::size_t which, double h) {
         if constexpr (breakable) {
             bonds::cluster_pool& pool = broken_.pools[which];
-            constexpr std::size_t lanes = bonds::cluster_pool::lanes;
             const std::size_t n = pool.shape().size();
             std::vector<std::vector<bonds::break_report>> reports(pool.batches());
             settings.run.for_each(
