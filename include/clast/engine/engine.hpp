@@ -305,27 +305,27 @@ class engine {
         settings.run.for_each(wall.size(), [&](std::size_t k) { evaluate_wall(wall[k], h, ahead); });
     }
 
-    /// Where a pebble and its body are, `ahead` seconds from t_n, and how they move. Balls are placed by their sub-step.
-    struct kinematics {
-        vec3 x;      ///< pebble
-        vec3 centre; ///< body
-        vec3 v, w;   ///< body
-    };
-    kinematics kinematics_of(std::size_t pebble, double ahead) const {
-        const std::size_t owner = at(grains.owner[pebble]);
-        const body_motion& m = grains.motion[owner];
+    /// Where a pebble is, `ahead` seconds from t_n. Balls are placed by their sub-step.
+    vec3 place_of(std::size_t pebble, double ahead) const {
         const vec3& x = grains.position[pebble];
-        if (owner >= grains.grain_count()) return {x, x, m.v, m.w};
-        if (ahead == 0.0) return {x, m.x, m.v, m.w};
-        return {x + ahead * (m.v + cross(m.w, x - m.x)), m.x + ahead * m.v, m.v, m.w};
+        const std::size_t owner = at(grains.owner[pebble]);
+        if (ahead == 0.0 || owner >= grains.grain_count()) return x;
+        const body_motion& m = grains.motion[owner];
+        return x + ahead * (m.v + cross(m.w, x - m.x));
+    }
+    /// Centre of the body of a pebble that is at x, at the same instant.
+    vec3 centre_of(std::size_t owner, const vec3& x, double ahead) const {
+        if (owner >= grains.grain_count()) return x;
+        const body_motion& m = grains.motion[owner];
+        return ahead == 0.0 ? m.x : m.x + ahead * m.v;
     }
 
     void evaluate_contact(contact_list<history>& list, std::size_t k, double h, double ahead) {
         force_row& row = list.rows[k];
         if (list.bonded[k] != 0) return;
         const auto i = at(list.pairs[k].i), j = at(list.pairs[k].j);
-        const kinematics a = kinematics_of(i, ahead), b = kinematics_of(j, ahead);
-        const vec3 d = b.x - a.x;
+        const vec3 xi = place_of(i, ahead), xj = place_of(j, ahead);
+        const vec3 d = xj - xi;
         const double ri = grains.radius[i], rj = grains.radius[j];
         const double reach = ri + rj, distance2 = norm2(d);
         history local{};
@@ -334,16 +334,21 @@ class engine {
             bool resting = true;
             if constexpr (contact_list<history>::remembers) resting = contact::is_resting(local);
             if (resting) {
-                if (row.depth > 0.0) row = {};
+                if (row.depth > 0.0 || row.dissipated > 0.0) row = {};
                 return;
             }
         }
         const double distance = std::sqrt(distance2), depth = reach - distance;
         const vec3 n = d / distance;
-        const vec3 point = a.x + (ri - 0.5 * depth) * n;
-        // relative motion of i against j over the last step, split by the normal of mid-step
-        const vec3 relative = a.v + cross(a.w, point - a.centre) - b.v - cross(b.w, point - b.centre);
-        const vec3 centres = b.v + cross(b.w, b.x - b.centre) - a.v - cross(a.w, a.x - a.centre);
+        const vec3 point = xi + (ri - 0.5 * depth) * n;
+        const auto oi = at(grains.owner[i]), oj = at(grains.owner[j]);
+        const body_motion& a = grains.motion[oi];
+        const body_motion& b = grains.motion[oj];
+        // velocities of the pebbles' centres, then relative motion of i against j at the contact point over the last
+        // step, split by the normal of mid-step
+        const vec3 vi = a.v + cross(a.w, xi - centre_of(oi, xi, ahead)), vj = b.v + cross(b.w, xj - centre_of(oj, xj, ahead));
+        const vec3 centres = vj - vi;
+        const vec3 relative = cross((ri - 0.5 * depth) * a.w + (rj - 0.5 * depth) * b.w, n) - centres;
         const vec3 mid = d - (0.5 * h) * centres;
         const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
         const double spin = 0.5 * h * dot(a.w + b.w, n);
@@ -424,6 +429,7 @@ class engine {
             const std::size_t r = entry >> 1;
             if (r < contacts) {
                 const force_row& row = list.rows[r];
+                if (row.depth == 0.0 && row.dissipated == 0.0) continue;
                 const vec3 f = (entry & 1U) != 0 ? -row.force : row.force;
                 s.force += f;
                 s.moment += cross(row.point - centre, f);
@@ -431,7 +437,7 @@ class engine {
             } else {
                 const wall_row& w = wall[r - contacts];
                 s.force += w.force;
-                s.moment += cross(kinematics_of(at(w.pebble), ahead).x - centre, w.force);
+                s.moment += cross(place_of(at(w.pebble), ahead) - centre, w.force);
             }
         }
         return s;

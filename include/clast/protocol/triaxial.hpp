@@ -236,7 +236,7 @@ class triaxial_test {
                           .replacement = s.replacement,
                           .damping = s.damping,
                           .safety = s.safety,
-                          .skin = 0.025 * s.grain.diameter,
+                          .skin = 0.0125 * s.grain.diameter,
                           .run = execution(s.threads)},
                          std::move(sp), boundary_type(vessel));
     }
