@@ -14,11 +14,6 @@
 #include <clast/bonds/parallel.hpp>
 #include <clast/measure/sample.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi" // see core/lanes.hpp
-#endif
-
 namespace clast::bonds {
 
 /// What a ball of a cluster brings into a sub-cycle and takes out of it.
@@ -275,7 +270,3 @@ class cluster_pool {
 };
 
 } // namespace clast::bonds
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif

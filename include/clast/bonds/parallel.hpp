@@ -11,11 +11,6 @@
 #include <clast/core/vector.hpp>
 #include <clast/measure/sample.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi" // see core/lanes.hpp
-#endif
-
 namespace clast::bonds {
 
 /// What the number "linear parallel bond normal stiffness 9.6e8" of the paper's Table 1 means. Table 1 prints N/m;
@@ -202,7 +197,3 @@ inline double energy(const constants& c, const state& s) {
 }
 
 } // namespace clast::bonds
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
