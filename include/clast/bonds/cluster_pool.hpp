@@ -212,7 +212,7 @@ class cluster_pool {
         for (std::size_t b = 0; b < m; ++b) {
             const constants& c = shape_.bond[b];
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
-            const double ra = shape_.radius[end_a(b)], rb = shape_.radius[end_b(b)];
+            const double ra = shape_.arm[b].a, rb = shape_.arm[b].b;
             double* const s = values_.data() + base(batch, b);
             const vec3x8 normal = load3x8(axis + b * 3 * lanes), wa = load3x8(w + i), wb = load3x8(w + j);
             state_x8 bond{load8(s), load3x8(s + shear * lanes), load8(s + twist * lanes), load3x8(s + bending * lanes)};
@@ -246,7 +246,7 @@ class cluster_pool {
                 const failure_flags fails = failing(shape_.bond[b], s);
                 if (!fails.tension && !fails.shear) continue;
                 const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l], axis[(b * 3 + 2) * lanes + l]};
-                const wrench wr = loads(s, normal, shape_.radius[end_a(b)], shape_.radius[end_b(b)]);
+                const wrench wr = loads(s, normal, shape_.arm[b].a, shape_.arm[b].b);
                 for (int a = 0; a < 3; ++a) {
                     const auto k = static_cast<std::size_t>(a) * lanes + l;
                     f[end_a(b) * 3 * lanes + k] -= wr.force_a[a];

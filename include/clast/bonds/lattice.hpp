@@ -19,20 +19,29 @@ struct pebble_load {
     vec3 moment; ///< N m
 };
 
+/// Distances from the centres of two bonded balls to the point where the bond acts (m).
+struct bond_arms {
+    double a; ///< from the ball at end a
+    double b;
+};
+
 /// A shape held together by parallel bonds, in its body frame. Made once per shape and material; grains share it.
 struct lattice {
-    std::vector<constants> bond;    ///< per bond of the shape
-    std::vector<shape_bond> ends;   ///< pebble indices
-    std::vector<vec3> normal;       ///< from a to b, body frame
-    std::vector<double> radius;     ///< per pebble (m)
-    std::vector<double> mass;       ///< per pebble (kg)
-    std::vector<double> inertia;    ///< per pebble, 2/5 m r^2 (kg m^2)
-    std::vector<vec3> offset;       ///< per pebble, body frame (m)
+    std::vector<constants> bond;  ///< per bond of the shape
+    std::vector<shape_bond> ends; ///< pebble indices
+    std::vector<vec3> normal;     ///< from a to b, body frame
+    std::vector<bond_arms> arm;   ///< radius plus half of the gap that a shape may leave: they add up to the distance,
+                                  ///< or a bond would turn its grain
+    std::vector<double> radius;   ///< per pebble (m)
+    std::vector<double> mass;     ///< per pebble (kg)
+    std::vector<double> inertia;  ///< per pebble, 2/5 m r^2 (kg m^2)
+    std::vector<vec3> offset;     ///< per pebble, body frame (m)
     Eigen::MatrixXd pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
     double highest_frequency = 0.0; ///< largest eigenfrequency with all bonds intact (rad/s)
 
     lattice() = default;
-    /// density (kg/m^3) > 0.
+    /// density (kg/m^3) > 0. Throws input_error if bonds join some pebbles but leave others apart: no force could hold
+    /// them.
     lattice(const shape& s, const parallel& material, double density) {
         const auto n = static_cast<Eigen::Index>(s.pebbles.size());
         for (const shape_pebble& p : s.pebbles) {
@@ -42,9 +51,15 @@ struct lattice {
             inertia.push_back(density * sphere_inertia_per_density(p.radius));
         }
         ends = s.bonds;
+        if (const int parts = pieces(s); !ends.empty() && parts > 1)
+            throw input_error(fmt::format("shape '{}'", s.name), fmt::format("{} pieces without a common bond", parts),
+                              "one piece, or no bond at all", "Close the gaps between its pebbles.");
         for (const shape_bond& b : ends) {
             bond.push_back(constants_of(material, radius[at(b.a)], radius[at(b.b)]));
-            normal.push_back(unit(offset[at(b.b)] - offset[at(b.a)]));
+            const vec3 across = offset[at(b.b)] - offset[at(b.a)];
+            const double half_gap = 0.5 * (norm(across) - radius[at(b.a)] - radius[at(b.b)]);
+            normal.push_back(unit(across));
+            arm.push_back({radius[at(b.a)] + half_gap, radius[at(b.b)] + half_gap});
         }
         const Eigen::MatrixXd k = stiffness();
         if (ends.empty()) {
@@ -82,9 +97,8 @@ struct lattice {
                     (axis < 3 ? v : w)[moving][axis % 3] = 1.0;
                     state s;
                     stretch(bond[e], s, normal[e],
-                            relative_velocity(normal[e], radius[side[0]], radius[side[1]], v[0], w[0], v[1], w[1]),
-                            w[1] - w[0], 1.0);
-                    const wrench load = loads(s, normal[e], radius[side[0]], radius[side[1]]);
+                            relative_velocity(normal[e], arm[e].a, arm[e].b, v[0], w[0], v[1], w[1]), w[1] - w[0], 1.0);
+                    const wrench load = loads(s, normal[e], arm[e].a, arm[e].b);
                     const auto column = static_cast<Eigen::Index>(6 * side[moving]) + axis;
                     for (int r = 0; r < 3; ++r) {
                         const auto a = static_cast<Eigen::Index>(6 * side[0]) + r;
@@ -99,22 +113,23 @@ struct lattice {
         return k;
     }
 
-    /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes) while
-    /// it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with minimum
-    /// norm. `spin` is the angular velocity (rad/s).
+    /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes)
+    /// while it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with
+    /// minimum norm. `spin` is the angular velocity (rad/s).
     std::vector<state> statics(std::span<const pebble_load> load, const quaternion& q, const vec3& spin) const {
         const std::size_t n = size();
         // rigid motion under the loads
         vec3 force, moment;
         double total = 0.0;
         mat3 tensor;
-        std::vector<vec3> arm(n);
+        std::vector<vec3> from_centre(n);
         for (std::size_t i = 0; i < n; ++i) {
-            arm[i] = rotate(q, offset[i]);
+            from_centre[i] = rotate(q, offset[i]);
             force += load[i].force;
-            moment += load[i].moment + cross(arm[i], load[i].force);
+            moment += load[i].moment + cross(from_centre[i], load[i].force);
             total += mass[i];
-            tensor += (inertia[i] + mass[i] * norm2(arm[i])) * mat3::identity() + (-mass[i]) * outer(arm[i], arm[i]);
+            tensor += (inertia[i] + mass[i] * norm2(from_centre[i])) * mat3::identity() +
+                      (-mass[i]) * outer(from_centre[i], from_centre[i]);
         }
         const vec3 linear = force / total;
         const vec3 gyroscopic = cross(spin, tensor * spin);
@@ -126,7 +141,8 @@ struct lattice {
         const vec3 angular{a(0), a(1), a(2)};
         Eigen::VectorXd f(static_cast<Eigen::Index>(6 * n));
         for (std::size_t i = 0; i < n; ++i) {
-            const vec3 acceleration = linear + cross(angular, arm[i]) + cross(spin, cross(spin, arm[i]));
+            const vec3 acceleration =
+                linear + cross(angular, from_centre[i]) + cross(spin, cross(spin, from_centre[i]));
             const vec3 rest = rotate_back(q, load[i].force - mass[i] * acceleration);
             const vec3 turn_rest = rotate_back(q, load[i].moment - inertia[i] * angular);
             for (int k = 0; k < 3; ++k) {
@@ -144,7 +160,7 @@ struct lattice {
             const std::size_t i = at(ends[e].a), j = at(ends[e].b);
             state s;
             stretch(bond[e], s, normal[e],
-                    relative_velocity(normal[e], radius[i], radius[j], part(i, 0), part(i, 3), part(j, 0), part(j, 3)),
+                    relative_velocity(normal[e], arm[e].a, arm[e].b, part(i, 0), part(i, 3), part(j, 0), part(j, 3)),
                     part(j, 3) - part(i, 3), 1.0);
             born[e] = {s.n, rotate(q, s.v), s.mt, rotate(q, s.mb)};
         }

@@ -115,7 +115,7 @@ inline void stretch(const constants& c, State& s, const Vector& n, const Vector&
     s.mb += (c.kb * dt) * (dw - tn * n);
 }
 
-/// Relative velocity at the bond point of two balls, b minus a (m/s).
+/// Relative velocity at the bond point of two balls, b minus a (m/s); ra and rb: from their centres to that point (m).
 template <class Vector>
 inline Vector relative_velocity(const Vector& n, double ra, double rb, const Vector& va, const Vector& wa, const Vector& vb,
                                 const Vector& wb) {
