@@ -7,6 +7,7 @@
 #include <clast/boundaries/tiles.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/criteria/one_of.hpp>
+#include <clast/criteria/weibull.hpp>
 #include <clast/protocol/triaxial.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
@@ -14,7 +15,7 @@
 namespace triaxial {
 
 struct tiles_modified : clast::triaxial_policies_default {
-    using breakage = clast::criteria::any; // picked by name at run time
+    using breakage = clast::criteria::weibull<clast::criteria::any>; // picked by name at run time
 };
 struct tiles_unbreakable : clast::triaxial_policies_default {
     using breakage = clast::criteria::none;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -155,7 +156,8 @@ clast::triaxial_setup<P> setup_of(const options& o) {
             const std::string name = o.criterion == "hertz_calibrated" ? "hertz_contact"
                                      : o.criterion == "mean"           ? "mean_stress"
                                                                        : o.criterion;
-            return criteria::by_name(name, criteria::crushing_strength(o.rock().characteristic, grain_diameter, 10.0));
+            return {criteria::by_name(name, criteria::crushing_strength(o.rock().characteristic, grain_diameter, 10.0)),
+                    o.weibull > 0.0 ? o.weibull : std::numeric_limits<double>::infinity(), o.seed};
         } else {
             return {};
         }

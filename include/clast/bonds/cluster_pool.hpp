@@ -48,13 +48,15 @@ class cluster_pool {
     std::size_t batches() const { return (size_ + lanes - 1) / lanes; }
     std::size_t bonds() const { return shape_.ends.size(); }
 
-    /// Adds a cluster with the given bond states; returns its number.
-    std::size_t add(std::span<const state> born) {
+    /// Adds a cluster with the given bond states and the strength of its bonds over the material's; returns its number.
+    std::size_t add(std::span<const state> born, double strength = 1.0) {
         if (size_ % lanes == 0) {
             values_.resize(values_.size() + bonds() * fields * lanes, 0.0);
             intact_.resize(intact_.size() + lanes, 0);
+            strength_.resize(strength_.size() + lanes, 1.0);
         }
         const std::size_t c = size_++;
+        strength_[c] = strength;
         for (std::size_t b = 0; b < bonds(); ++b) {
             put(c, b, born[b]);
             value(c, b, alive) = 1.0;
@@ -158,7 +160,7 @@ class cluster_pool {
 
     template <class A>
     void archive(A& a) {
-        a(size_, values_, intact_);
+        a(size_, values_, intact_, strength_);
     }
 
   private:
@@ -209,6 +211,7 @@ class cluster_pool {
         std::fill(f, f + n * 3 * lanes, 0.0);
         std::fill(t, t + n * 3 * lanes, 0.0);
         lane8 worst = lane8{} - 1.0;
+        const lane8 strength = load8(strength_.data() + batch * lanes);
         for (std::size_t b = 0; b < m; ++b) {
             const constants& c = shape_.bond[b];
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
@@ -222,7 +225,7 @@ class cluster_pool {
             store3x8(s + shear * lanes, bond.v);
             store8(s + twist * lanes, bond.mt);
             store3x8(s + bending * lanes, bond.mb);
-            const auto margin = margins_of(c, bond); // negative where no bond is left: its state is zero
+            const auto margin = margins_of(c, bond, strength); // negative where no bond is left: its state is zero
             worst = larger(worst, larger(margin.tension, margin.shear));
             const auto wr = loads(bond, normal, ra, rb);
             store3x8(f + i, load3x8(f + i) + wr.force_a);
@@ -243,7 +246,7 @@ class cluster_pool {
                 const std::size_t c = batch * lanes + l;
                 if (c >= size_ || !is_intact(c, b)) continue;
                 const state s = get(c, b);
-                const failure_flags fails = failing(shape_.bond[b], s);
+                const failure_flags fails = failing(shape_.bond[b], s, strength_[c]);
                 if (!fails.tension && !fails.shear) continue;
                 const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l], axis[(b * 3 + 2) * lanes + l]};
                 const wrench wr = loads(s, normal, shape_.arm[b].a, shape_.arm[b].b);
@@ -267,6 +270,7 @@ class cluster_pool {
     std::size_t size_ = 0;
     std::vector<double> values_;       ///< [batch][bond][field][lane]
     std::vector<std::int32_t> intact_; ///< per cluster
+    std::vector<double> strength_;     ///< per cluster, over that of the material
 };
 
 } // namespace clast::bonds

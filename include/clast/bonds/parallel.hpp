@@ -163,13 +163,15 @@ struct margins {
     Real tension;
     Real shear;
 };
-template <class State>
-inline auto margins_of(const constants& c, const State& s) {
+/// `factor` scales both strengths: that of one grain over that of its kind.
+template <class State, class Real>
+inline auto margins_of(const constants& c, const State& s, const Real& factor) {
     using real = decltype(s.n * 1.0);
     const real mean = s.n * c.per_area;
     const real none = mean * 0.0;
-    const real left = larger(c.tensile_strength - mean, none); // what bending may still add
-    const real strength = c.cohesion + larger(-mean, none - c.tensile_strength) * c.tan_friction;
+    const real tensile = c.tensile_strength * factor;
+    const real left = larger(tensile - mean, none); // what bending may still add
+    const real strength = c.cohesion * factor + larger(-mean, none - tensile) * c.tan_friction;
     const real rest = larger(strength - magnitude(s.mt) * c.per_twist, none); // what shear may still add
     return margins<real>{norm2(s.mb) * (c.per_bending * c.per_bending) - left * left,
                          norm2(s.v) * (c.per_area * c.per_area) - rest * rest};
@@ -179,8 +181,8 @@ struct failure_flags {
     bool tension;
     bool shear;
 };
-inline failure_flags failing(const constants& c, const state& s) {
-    const margins<double> m = margins_of(c, s);
+inline failure_flags failing(const constants& c, const state& s, double factor = 1.0) {
+    const margins<double> m = margins_of(c, s, factor);
     return {m.tension >= 0.0, m.shear >= 0.0};
 }
 

@@ -25,11 +25,13 @@ template <evaluated_criterion C> struct weibull {
     static constexpr criteria::needs needs = C::needs | criteria::needs::grain_id;
 
     C model;
-    double m = 10.0;        ///< Weibull modulus of the scatter, usually the same as that of the size effect
+    double m = 10.0;        ///< Weibull modulus of the scatter, usually that of the size effect; infinity: no scatter
     std::uint64_t seed = 0; ///< another seed gives other grains the weak ones
 
+    /// Strength of a grain over that of its size; also that of its bonds, once it is a cluster.
+    double strength_factor(std::int64_t grain) const { return weibull_factor(seed, grain, m); }
     double utilisation(grain_load load) const {
-        load.strength_factor *= weibull_factor(seed, load.grain, m);
+        load.strength_factor *= strength_factor(load.grain);
         return model.utilisation(load);
     }
     constexpr criteria::needs active_needs() const { return needs_of(model) | criteria::needs::grain_id; }

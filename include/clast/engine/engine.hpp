@@ -765,7 +765,10 @@ class engine {
                     broken_.bonded[p] = 1;
                     broken_.balls.push_back(static_cast<std::int32_t>(p));
                 }
-                one.cluster = static_cast<std::int32_t>(pool.add(m.born));
+                double strength = 1.0;
+                if constexpr (requires { settings.breakage.strength_factor(std::int64_t{}); })
+                    strength = settings.breakage.strength_factor(m.grain);
+                one.cluster = static_cast<std::int32_t>(pool.add(m.born, strength));
                 broken_.members[at(one.shape)].push_back(m.grain);
                 totals_.bond_dissipation -= pool.energy(at(one.cluster)); // born with energy that no one paid for
                 ++totals_.replaced;
