@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The two targets that users link: clast::clast (headers) and clast::fast (headers, threads, flags).
+# The two targets that users link: clast::clast (headers) and clast::fast (headers and the flags that kernels like).
 
 file(GLOB_RECURSE CLAST_HEADERS CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/clast/*.hpp")
 
@@ -11,25 +11,19 @@ if(NOT TARGET fmt::fmt)
     find_package(fmt REQUIRED)
 endif()
 
+# for std::thread, a library of its own before glibc 2.34
+find_package(Threads REQUIRED)
+
 add_library(clast INTERFACE)
 add_library(clast::clast ALIAS clast)
 target_sources(clast INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${CLAST_HEADERS})
 target_compile_features(clast INTERFACE cxx_std_20)
-target_link_libraries(clast INTERFACE Eigen3::Eigen fmt::fmt)
-
-# GLOBAL, because the link below is resolved in the directory of the program that uses it.
-if(CLAST_OPENMP)
-    find_package(OpenMP QUIET COMPONENTS CXX GLOBAL)
-endif()
+target_link_libraries(clast INTERFACE Eigen3::Eigen fmt::fmt Threads::Threads)
 
 add_library(clast_fast INTERFACE)
 add_library(clast::fast ALIAS clast_fast)
 set_target_properties(clast_fast PROPERTIES EXPORT_NAME fast)
 target_link_libraries(clast_fast INTERFACE clast)
-if(CLAST_OPENMP)
-    # by name, so that an installed clast::fast still works, on one thread, where there is no OpenMP
-    target_link_libraries(clast_fast INTERFACE $<TARGET_NAME_IF_EXISTS:OpenMP::OpenMP_CXX>)
-endif()
 set(gnu_like "$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>")
 # Kernels call sqrt in their inner loops: without errno and trapping semantics these vectorise, and no result changes.
 target_compile_options(clast_fast INTERFACE "$<${gnu_like}:-fno-math-errno;-fno-trapping-math>")
