@@ -334,7 +334,7 @@ class engine {
             bool resting = true;
             if constexpr (contact_list<history>::remembers) resting = contact::is_resting(local);
             if (resting) {
-                if (row.depth > 0.0 || row.dissipated > 0.0) row = {};
+                if (row.depth > 0.0 || row.dissipated != 0.0) row = {};
                 return;
             }
         }
