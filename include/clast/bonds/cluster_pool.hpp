@@ -86,8 +86,9 @@ class cluster_pool {
     int substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt * shape_.highest_frequency))); }
 
     /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes, lane
-    /// by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the present unit
-    /// normals. Clusters without intact bonds, and empty lanes, are left alone. Returns the energy taken out by damping
+    /// by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the unit
+    /// normals at the middle of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of
+    /// 1 us strains its bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes, are left alone. Returns the energy taken out by damping
     /// per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
     template <class Normal>
     std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
