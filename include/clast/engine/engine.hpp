@@ -118,6 +118,14 @@ class engine {
 
     engine(settings_type s, specimen sp, boundary_type b)
         : settings(std::move(s)), grains(std::move(sp)), boundary(std::move(b)) {
+        if constexpr (has_criterion) {
+            using criteria::needs;
+            if (!criteria::contains(needs::largest_force | needs::stress | needs::grain_id,
+                                    criteria::needs_of(settings.breakage)))
+                throw input_error("breakage criterion", "needs radius and modulus of the largest contact",
+                                  "criteria on the largest force or the mean stress of a grain",
+                                  "Take hertz_contact with the nominal radius (its default).");
+        }
         if constexpr (breakable) {
             for (const shape& one : grains.shapes)
                 broken_.pools.emplace_back(bonds::lattice(one, settings.replacement.bond, grains.density),
@@ -187,8 +195,15 @@ class engine {
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         rebuild();
     }
-    /// Sets friction between pebbles; histories stay and are cut at the new limit in the next step.
-    void set_friction(double mu) { settings.grain_contact.mu = mu; }
+    /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
+    double friction() const {
+        if constexpr (requires { settings.grain_contact.mu; }) return settings.grain_contact.mu;
+        return 0.0;
+    }
+    /// Sets it; histories stay and are cut at the new limit in the next step.
+    void set_friction(double mu) {
+        if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
+    }
     void set_velocity(std::size_t grain_id, const vec3& v) { grains.motion[grain_id].v = v; }
     /// To be called after velocities were set by hand, so that the audit knows of their energy.
     void count_initial_energy() { totals_.initial_energy = kinetic_energy(); }
@@ -731,17 +746,17 @@ class engine {
             std::int32_t id;
             vec3 force;
         };
-        std::array<neighbour, 64> around;
-        std::size_t count = 0;
+        std::vector<neighbour> around; // few, but a clump among fragments may have many
+        around.reserve(32);
         each_row_of(g, [&](std::int32_t, std::int32_t id, const vec3& f, const vec3& point) {
             std::size_t k = 0;
-            while (k < count && around[k].id != id) ++k;
-            if (k == count && count < around.size()) around[count++] = {id, {}};
-            if (k < around.size()) around[k].force += f;
+            while (k < around.size() && around[k].id != id) ++k;
+            if (k == around.size()) around.push_back({id, {}});
+            around[k].force += f;
             // force into the grain at the arm x - X: f (x) arm is negative in compression
             if (wants_stress) load.stress += (-1.0 / s.volume) * outer(f, point - grains.motion[g].x);
         });
-        for (std::size_t k = 0; k < count; ++k) load.largest_force = std::max(load.largest_force, norm(around[k].force));
+        for (const neighbour& n : around) load.largest_force = std::max(load.largest_force, norm(n.force));
         return load;
     }
 

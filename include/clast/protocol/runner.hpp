@@ -70,7 +70,7 @@ class runner {
         : sim(e), plan(std::move(p)), make_membrane_(std::move(membrane)) {
         if (plan.stages.empty())
             throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
-        friction_ = sim.settings.grain_contact.mu;
+        friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         reference_height_ = sim.boundary.height();
         reference_volume_ = sim.boundary.volume();
