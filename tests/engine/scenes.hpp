@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Small scenes that several tests share: a handful of grains in a toy vessel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <clast/boundaries/solid_strips.hpp>
+#include <clast/boundaries/tiles.hpp>
+#include <clast/contacts/linear.hpp>
+#include <clast/criteria/nominal_force.hpp>
+#include <clast/criteria/none.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/grains/shape.hpp>
+#include <clast/protocol/packing.hpp>
+#include <clast/replacements/modified.hpp>
+#include <clast/replacements/none.hpp>
+#include <clast/searches/cell_grid.hpp>
+
+namespace clast::scenes {
+
+template <class Boundary = boundaries::solid_strips> struct unbreakable : triaxial_policies_default {
+    using breakage = criteria::none;
+    using replacement = replacements::none;
+    using boundary = Boundary;
+};
+template <class Boundary = boundaries::solid_strips> struct breakable : triaxial_policies_default {
+    using boundary = Boundary;
+};
+
+inline constexpr contacts::piece pebble{5.8e6, 2.9e6, 0.3}, platen{3.2e8, 1.6e8, 0.0}, membrane{3.2e6, 1.6e6, 0.0};
+
+/// A cylinder around the origin (m).
+inline boundaries::cylinder_settings cylinder(double radius, double height, double smallest_radius = 4e-3) {
+    boundaries::cylinder_settings c;
+    c.radius = radius;
+    c.bottom = -0.5 * height;
+    c.top = 0.5 * height;
+    c.rings = 4;
+    c.tiles_per_ring = 8;
+    c.smallest_radius = smallest_radius;
+    c.contact_stiffness_floor = contacts::linear::between(pebble, membrane).kn;
+    return c;
+}
+
+template <class P>
+requires(!P::replacement::makes_bonds) engine_settings<P> settings() {
+    return {.grain_contact = contacts::linear::between(pebble, pebble),
+            .platen_contact = contacts::linear::between(pebble, platen),
+            .lateral_contact = contacts::linear::between(pebble, membrane),
+            .breakage = {},
+            .replacement = {}};
+}
+/// Grains of crushing strength sigma0 (Pa); `bond_strength` scales both strengths of the bonds of Table 1.
+template <class P>
+requires(P::replacement::makes_bonds) engine_settings<P> settings(double sigma0, double bond_strength = 1.0) {
+    bonds::parallel bond;
+    bond.tensile_strength *= bond_strength;
+    bond.cohesion *= bond_strength;
+    return {.grain_contact = contacts::linear::between(pebble, pebble),
+            .platen_contact = contacts::linear::between(pebble, platen),
+            .lateral_contact = contacts::linear::between(pebble, membrane),
+            .breakage = {criteria::crushing_strength(sigma0)},
+            .replacement = {.bond = bond}};
+}
+
+/// A specimen of one shape without grains.
+inline specimen empty(shape s) {
+    specimen sp;
+    sp.shapes.push_back(std::move(s));
+    return sp;
+}
+
+/// Servo control of platens and wall to one stress (Pa).
+inline boundaries::drives isotropic(double stress, double max_speed) {
+    boundaries::drives d;
+    d.platens.how = d.lateral.how = boundaries::drive::mode::servo;
+    d.platens.value = d.lateral.value = stress;
+    d.platens.max_speed = d.lateral.max_speed = max_speed;
+    return d;
+}
+
+/// `count` grains of a shape, packed from a cloud in a vessel of the given radius and twice that height by servo
+/// control to a stress (Pa). Nothing breaks meanwhile.
+template <class P>
+engine<P> packed(engine_settings<P> s, const shape& grain, std::size_t count, double radius, double stress,
+                 std::int64_t steps, std::uint64_t seed = 1) {
+    specimen sp = empty(grain);
+    protocol::add_cloud(sp, 0, count, {radius, -radius, radius}, seed);
+    double smallest = grain.circumscribed_radius;
+    for (const shape_pebble& p : grain.pebbles) smallest = std::min(smallest, p.radius);
+    engine<P> e(std::move(s), std::move(sp), typename P::boundary(cylinder(radius, 2.0 * radius, smallest)));
+    e.breakage_on = false;
+    e.drives = isotropic(stress, 0.5);
+    for (std::int64_t k = 0; k < steps; ++k) e.step();
+    return e;
+}
+
+} // namespace clast::scenes
