@@ -110,7 +110,7 @@ class execution {
     template <class F>
     void for_each(std::size_t n, F&& body, std::size_t grain = 64) const {
         if (helpers_ == nullptr || n < 2 * grain) {
-            for (std::size_t i = 0; i < n; ++i) body(i);
+            do_span(body, 0, n);
             return;
         }
         const std::size_t pieces = static_cast<std::size_t>(threads_) * 8;
@@ -121,8 +121,7 @@ class execution {
         helpers_->run((n + l.chunk - 1) / l.chunk,
                       [](void* context, std::size_t c) {
                           const loop& me = *static_cast<const loop*>(context);
-                          const std::size_t end = std::min(me.n, (c + 1) * me.chunk);
-                          for (std::size_t i = c * me.chunk; i < end; ++i) (*me.body)(i);
+                          do_span(*me.body, c * me.chunk, std::min(me.n, (c + 1) * me.chunk));
                       },
                       &l);
     }
@@ -163,6 +162,13 @@ class execution {
     }
 
   private:
+    /// The one place where a body is compiled: in two copies, one for one thread and one for several, a compiler might
+    /// contract a*b + c in one and not in the other, and the bits would differ.
+    template <class F>
+    [[gnu::noinline]] static void do_span(F& body, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) body(i);
+    }
+
     static constexpr std::size_t chunk = 256;
     static std::size_t chunks(std::size_t n) { return (n + chunk - 1) / chunk; }
 
