@@ -65,6 +65,12 @@ requires(P::replacement::makes_bonds) engine_settings<P> settings(double sigma0,
             .replacement = {.bond = bond}};
 }
 
+/// Turns unit vector a into unit vector b (not opposite ones).
+inline quaternion turning(const vec3& a, const vec3& b) {
+    const vec3 c = cross(a, b);
+    return unit(quaternion{1.0 + dot(a, b), c.x, c.y, c.z});
+}
+
 /// A specimen of one shape without grains.
 inline specimen empty(shape s) {
     specimen sp;
