@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <clast/engine/policies.hpp>
+
+#include <type_traits>
+
+#include <clast/boundaries/ring_walls.hpp>
+#include <clast/boundaries/solid_strips.hpp>
+#include <clast/criteria/one_of.hpp>
+#include <clast/searches/brute_force.hpp>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+struct other_membrane : triaxial_policies_default {
+    using boundary = boundaries::ring_walls;
+};
+struct any_criterion : triaxial_policies_default {
+    using breakage = criteria::one_of<>;
+};
+struct rigid : triaxial_policies_default {
+    using breakage = criteria::none;
+    using replacement = replacements::none;
+    using boundary = boundaries::solid_strips;
+    using search = searches::brute_force;
+};
+struct wrong_contact : triaxial_policies_default {
+    using contact = int;
+};
+struct wrong_boundary : triaxial_policies_default {
+    using boundary = double;
+};
+struct wrong_search : triaxial_policies_default {
+    using search = boundaries::tiles;
+};
+struct wrong_criterion : triaxial_policies_default {
+    using breakage = searches::brute_force;
+};
+struct wrong_replacement : triaxial_policies_default {
+    using replacement = criteria::none;
+};
+struct incomplete {
+    using contact = contacts::linear;
+};
+static_assert(triaxial_policies<triaxial_policies_default>);
+static_assert(triaxial_policies<other_membrane> && triaxial_policies<rigid>);
+static_assert(!triaxial_policies<wrong_contact> && !triaxial_policies<wrong_boundary>);
+static_assert(!triaxial_policies<wrong_search> && !triaxial_policies<wrong_criterion>);
+static_assert(!triaxial_policies<wrong_replacement> && !triaxial_policies<incomplete> && !triaxial_policies<int>);
+} // namespace
+
+TEST_CASE("a bundle is the paper's by default, and what is overridden changes nothing else") {
+    static_assert(std::is_same_v<other_membrane::contact, contacts::linear>);
+    static_assert(std::is_same_v<other_membrane::replacement, replacements::modified>);
+    static_assert(std::is_same_v<triaxial_policies_default::boundary, boundaries::tiles>);
+    static_assert(std::is_same_v<triaxial_policies_default::breakage, criteria::nominal_force>);
+    SUCCEED("checked at compile time");
+}

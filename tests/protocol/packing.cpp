@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <clast/protocol/packing.hpp>
+
+#include <cmath>
+#include <string>
+
+#include <clast/io/archive.hpp>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+specimen cloud(std::size_t count, const protocol::cylinder& room, std::uint64_t seed) {
+    specimen s;
+    s.shapes = {shapes::tetrahedron_4(0.02)};
+    protocol::add_cloud(s, 0, count, room, seed);
+    return s;
+}
+} // namespace
+
+TEST_CASE("a cloud has as many grains as asked for, inside, at rest and apart from each other") {
+    const protocol::cylinder room{0.06, -0.02, 0.15};
+    const specimen s = cloud(60, room, 3);
+    REQUIRE(s.grain_count() == 60);
+    for (std::size_t g = 0; g < 60; ++g) {
+        const vec3& c = s.motion[g].x;
+        CHECK(std::hypot(c.x, c.y) <= room.radius - 0.01);
+        CHECK(c.z >= room.bottom + 0.01);
+        CHECK(c.z <= room.top - 0.01);
+        CHECK(norm(s.motion[g].v) == 0.0);
+        for (std::size_t h = 0; h < g; ++h) CHECK(norm(c - s.motion[h].x) > 0.02);
+    }
+    for (std::size_t p = 0; p < s.pebble_count(); ++p)
+        CHECK(std::hypot(s.position[p].x, s.position[p].y) + s.radius[p] <= room.radius);
+}
+
+TEST_CASE("the seed makes the cloud: the same one the same, another one another") {
+    const protocol::cylinder room{0.06, 0.0, 0.15};
+    CHECK(checksum(cloud(40, room, 5)) == checksum(cloud(40, room, 5)));
+    CHECK(checksum(cloud(40, room, 5)) != checksum(cloud(40, room, 6)));
+}
+
+TEST_CASE("a cloud is spread evenly: half of it in each half of the room, orientations without a preference") {
+    const specimen s = cloud(1000, {0.2, 0.0, 0.8}, 1);
+    vec3 mean, axis;
+    double inside = 0.0;
+    for (std::size_t g = 0; g < 1000; ++g) {
+        mean += s.motion[g].x * 1e-3;
+        axis += 1e-3 * rotate(s.turning[g].q, {0, 0, 1});
+        if (std::hypot(s.motion[g].x.x, s.motion[g].x.y) < 0.19 / std::sqrt(2.0)) inside += 1e-3;
+    }
+    CHECK(std::abs(mean.z - 0.4) < 0.03);
+    CHECK(std::hypot(mean.x, mean.y) < 0.015);
+    CHECK(norm(axis) < 0.08);
+    CHECK(inside == Approx(0.5).margin(0.05)); // half of the section
+}
+
+TEST_CASE("a cloud too dense for its room is refused with the number that fits, and so is a room below one grain") {
+    std::string text;
+    try {
+        (void)cloud(200, {0.03, 0.0, 0.06}, 1);
+    } catch (const input_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("number of grains") != std::string::npos);
+    CHECK(text.find("200") != std::string::npos);
+    CHECK(text.find("about") != std::string::npos);
+    CHECK_THROWS_AS(cloud(1, {0.009, 0.0, 1.0}, 1), input_error);
+    CHECK_THROWS_AS(cloud(1, {1.0, 0.0, 0.019}, 1), input_error);
+}

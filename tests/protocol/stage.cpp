@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <clast/protocol/stage.hpp>
+
+#include <catch.hpp>
+
+using namespace clast;
+using namespace clast::literals;
+
+TEST_CASE("conditions are met at their limits and not before, and say so in words") {
+    stage_view v;
+    const auto check = [&](const condition& c, double& value, double before, double after) {
+        INFO(c.text);
+        value = before;
+        CHECK_FALSE(c.met(v));
+        CHECK(c.progress(v) < 1.0);
+        CHECK(c.progress(v) >= 0.0);
+        value = after;
+        CHECK(c.met(v));
+        CHECK(c.progress(v) == 1.0);
+    };
+    check(until::axial_strain(25_percent), v.axial_strain, 0.2499, 0.25);
+    check(until::deviator_below(10_kPa), v.q, 10.1e3, 10e3);
+    check(until::unbalanced_below(1e-3), v.unbalanced_ratio, 1.1e-3, 0.9e-3);
+    check(until::spheres_below(1_kPa), v.sphere_stress, 1001.0, 999.0);
+    check(until::size_reached(), v.travel_left, 0.01, 0.0);
+    CHECK(until::axial_strain(25_percent).text == "axial strain 25 %");
+    CHECK(until::deviator_below(10_kPa).text == "q <= 10 kPa");
+
+    v.steps = 5000;
+    check(until::unloaded(0.8_N), v.mean_contact_force, 0.9, 0.7);
+    v.steps = 10;
+    CHECK_FALSE(until::unloaded(0.8_N).met(v)); // a start that no contact has felt yet is not rest
+
+    v.axial_error = 0.0;
+    check(until::stresses_within(1e-3), v.confining_error, 2e-3, 5e-4);
+    check(until::stresses_within(1e-3), v.axial_error, 2e-3, 5e-4);
+
+    v.steps = 99;
+    CHECK_FALSE(until::steps(100).met(v));
+    CHECK(until::steps(100).progress(v) == Approx(0.99));
+    v.steps = 100;
+    CHECK(until::steps(100).met(v));
+}
+
+TEST_CASE("conditions join by and, by or, and the progress follows") {
+    stage_view v;
+    v.axial_strain = 0.1;
+    v.steps = 50;
+    const condition both = until::axial_strain(10_percent) && until::steps(100);
+    const condition either = until::axial_strain(10_percent) || until::steps(100);
+    CHECK_FALSE(both.met(v));
+    CHECK(either.met(v));
+    CHECK(both.progress(v) == Approx(0.5));
+    CHECK(either.progress(v) == 1.0);
+    CHECK(both.text == "axial strain 10 % and 100 steps");
+    CHECK(either.text == "axial strain 10 % or 100 steps");
+    v.steps = 100;
+    CHECK(both.met(v));
+    v.axial_strain = 0.0;
+    CHECK_FALSE(both.met(v));
+}
+
+TEST_CASE("progress of a quantity that falls over decades grows with every decade") {
+    stage_view v;
+    const condition c = until::unbalanced_below(1e-3);
+    double last = -1.0;
+    for (const double u : {10.0, 1.0, 0.1, 0.01, 0.002}) {
+        v.unbalanced_ratio = u;
+        CHECK(c.progress(v) >= last);
+        CHECK(c.progress(v) < 1.0);
+        last = c.progress(v);
+    }
+    CHECK(last > 0.8);
+}
+
+TEST_CASE("drives are made from quantities in SI") {
+    CHECK(drive_by::hold().how == axis_drive::kind::hold);
+    CHECK(drive_by::strain_rate(0.1_per_s).value == Approx(0.1));
+    CHECK(drive_by::stress(2_MPa).value == Approx(2e6));
+    CHECK(drive_by::stress(2_MPa).how == axis_drive::kind::stress);
+    CHECK(drive_by::inertial_number(-1e-4).value == -1e-4);
+    CHECK(drive_by::size(30_cm).value == Approx(0.3));
+    CHECK(drive_by::size(30_cm).how == axis_drive::kind::reach);
+}
