@@ -40,7 +40,8 @@ struct cylinder_settings {
     double column_top = 0.0;    ///< ... to here (m), at least over the specimen; equal: the specimen's height is taken
     double platen_stiffness = 3.2e8;      ///< of the piece (N/m), paper Table 1
     double tile_stiffness = 3.2e6;        ///< of the piece (N/m), paper Table 1
-    double smallest_radius = 0.0;         ///< of all pebbles (m), > 0; no vertical step may exceed twice this
+    double smallest_radius = 0.0;         ///< of all pebbles (m), > 0
+    double largest_gap = 0.0;             ///< largest step between tiles of a column (m); 0: 2 smallest_radius
     double largest_step = 5e-3;           ///< largest step between neighbours of a ring (m), > 0
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
     double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
@@ -291,6 +292,8 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
            "Take the stiffness of one pebble-tile contact.");
     demand(set_.gaps.closing > 0.0 && set_.gaps.closing < 1.0, "gaps.closing", set_.gaps.closing, "in (0, 1)", "");
     demand(set_.gaps.release > 0.0 && set_.gaps.release <= 1.0, "gaps.release", set_.gaps.release, "in (0, 1]", "");
+    if (set_.largest_gap == 0.0) set_.largest_gap = 2.0 * set_.smallest_radius;
+    demand(set_.largest_gap > 0.0, "largest_gap", set_.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
     if (set_.largest_radius == 0.0) set_.largest_radius = 1.6 * set_.radius;
     demand(set_.largest_radius > set_.radius, "largest_radius", set_.largest_radius, "above radius",
            "0 takes 1.6 radius.");
@@ -413,7 +416,7 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::choose_active() {
     if constexpr (Unit == moving_unit::wall) return;
     const int count = last - first + 1;
     const int columns = units_around();
-    const double limit = 2.0 * set_.smallest_radius;
+    const double limit = set_.largest_gap;
     for (int i = 0; i < columns; ++i)
         chains_.push_back({first * around_ + i, around_, count, false, i * rings_ + first, limit});
     const int rings_from = columns * rings_;
