@@ -218,8 +218,8 @@ class engine {
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(slow_, slow_wall_, slow_of_, reference_, reference_turn_, needed_, wall_travel_);
         if constexpr (breakable) a(fast_, fast_wall_, fast_of_, broken_);
-        loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        work_loads_.assign(loads_.size(), {});
+        loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
+        work_loads_.resize(loads_.size());
     }
 
     // ---- what measurements read ----------------------------------------------------------------------------------

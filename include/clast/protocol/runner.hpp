@@ -83,17 +83,8 @@ class runner {
         const auto clock = [&] {
             wall_time_ = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         };
+        begin_due(watch);
         while (stage_ < plan.stages.size()) {
-            if (!begun_) {
-                if (current().skip_if_relaxed && ended_by_itself_) {
-                    ++stage_;
-                    continue;
-                }
-                begin_stage();
-                clock();
-                report(watch);
-                watch.on_stage(current().name, true);
-            }
             sim.step();
             ++stage_steps_;
             stage_time_ += sim.dt();
@@ -114,6 +105,7 @@ class runner {
             else
                 try_next_friction(watch);
             flush_events(watch);
+            begin_due(watch); // before the pause: what a stage begins with is measured from forces that no file keeps
             watch.on_pause();
             if (watch.stop_requested() && stage_ < plan.stages.size()) return outcome::stopped;
         }
@@ -220,6 +212,19 @@ class runner {
     const stage& current() const { return plan.stages[stage_]; }
     double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
     double closing_speed() const { return sim.boundary.velocity(0) + sim.boundary.velocity(1); }
+
+    /// Begins the stage that is due, if none is running, and leaves out those that are not needed.
+    void begin_due(observer& watch) {
+        while (!begun_ && stage_ < plan.stages.size()) {
+            if (current().skip_if_relaxed && ended_by_itself_) {
+                ++stage_;
+                continue;
+            }
+            begin_stage();
+            report(watch);
+            watch.on_stage(current().name, true);
+        }
+    }
 
     void begin_stage() {
         const stage& s = current();
