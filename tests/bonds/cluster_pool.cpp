@@ -42,11 +42,11 @@ struct world {
 
     std::size_t pebbles() const { return pool.shape().size(); }
 
-    std::size_t add(const quaternion& q = {}, const std::vector<state>& born = {}) {
+    std::size_t add(const quaternion& q = {}, const std::vector<state>& born = {}, double strength = 1.0) {
         for (const vec3& x : pool.shape().offset) position.push_back(rotate(q, x));
         motion.resize(position.size());
         load.resize(position.size());
-        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born);
+        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born, strength);
     }
     /// Of a bond in `later` seconds, at the present velocities.
     vec3 normal(std::size_t cluster, std::size_t bond, double later = 0.0) const {
@@ -384,6 +384,35 @@ TEST_CASE("under growing pull a bond breaks in tension and under growing twist i
         CHECK(carried == Approx(strength).epsilon(1e-3));
         CHECK(carried >= strength * (1 - 1e-12));
     }
+}
+
+TEST_CASE("a cluster can be stronger or weaker than its kind, each on its own") {
+    const double r = 0.004, strength = 30e6 * pi * r * r;
+    world many(pair_of_balls(r), parallel{}, 0.0);
+    const double factors[] = {1.0, 0.5, 2.0, 1.1};
+    for (const double factor : factors) many.add({}, {{1.05 * strength, {}, 0.0, {}}}, factor);
+    many.step(1e-9);
+    CHECK_FALSE(many.pool.is_intact(0, 0));
+    CHECK_FALSE(many.pool.is_intact(1, 0));
+    CHECK(many.pool.is_intact(2, 0));
+    CHECK(many.pool.is_intact(3, 0));
+    cluster_pool copy(many.pool.shape(), 0.0);
+    from_bytes(to_bytes(many.pool), copy);
+    CHECK(checksum(copy) == checksum(many.pool));
+}
+
+TEST_CASE("damped turning: the energy that damping takes is the work that is missing") {
+    world two(pair_of_balls(0.004), unbreakable_bond(), 0.5);
+    two.add();
+    for (std::size_t side = 0; side < 2; ++side) {
+        const double sign = side == 0 ? -1.0 : 1.0;
+        two.load[side] = {{}, {2.0 * sign, 1.0 * sign, -0.5 * sign}};
+    }
+    const double dt = 2e-9;
+    for (int i = 0; i < 5000; ++i) two.step(dt);
+    CHECK(two.stored() > 0.0);
+    CHECK(two.dissipated > 0.2 * two.work);
+    CHECK(two.work == Approx(two.kinetic() + two.stored() + two.dissipated).epsilon(5e-3));
 }
 
 TEST_CASE("failures are told in the order of steps, then bonds, then lanes") {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <clast/core/random.hpp>
 
@@ -14,7 +13,6 @@ using namespace clast::bonds;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double density = 2650.0;
 
 double largest(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }

@@ -280,6 +280,23 @@ TEST_CASE("the flags of failure are those of the stresses, for any state") {
     CHECK((broken > 2000 && broken < 18000));
 }
 
+TEST_CASE("a factor scales both strengths of a bond, and nothing else") {
+    random_stream random{6, 5};
+    parallel m, strong;
+    m.friction_angle = strong.friction_angle = 0.3;
+    strong.tensile_strength *= 1.7;
+    strong.cohesion *= 1.7;
+    const constants c = constants_of(m, 0.003, 0.004), reference = constants_of(strong, 0.003, 0.004);
+    const double force = 30e6 / c.per_area;
+    for (int i = 0; i < 5000; ++i) {
+        const vec3 n = direction(random);
+        const state s{force * uniform(random, -2.5, 2.5), 3.0 * force * reject(any(random), n),
+                      0.003 * force * uniform(random, -1, 1), 0.002 * force * reject(any(random), n)};
+        REQUIRE(failing(c, s, 1.7).tension == failing(reference, s).tension);
+        REQUIRE(failing(c, s, 1.7).shear == failing(reference, s).shear);
+    }
+}
+
 TEST_CASE("shear force and bending moment follow a bond that turns, keep their size, and their work stays zero") {
     random_stream random{6, 4};
     for (int trial = 0; trial < 10; ++trial) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <clast/core/parallel.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include <clast/core/random.hpp>
@@ -77,3 +80,18 @@ TEST_CASE("a maximum is that of a plain loop, and not below its floor") {
 }
 
 TEST_CASE("there is at least one thread") { CHECK(available_threads() >= 1); }
+
+TEST_CASE("thousands of short loops in a row, with and without pauses, lose and repeat no iteration") {
+    const execution run(3), copy = run; // copies share their threads
+    std::vector<std::uint32_t> visits(640, 0);
+    for (std::uint32_t k = 1; k <= 20000; ++k) {
+        (k % 2 == 0 ? run : copy)
+            .for_each(
+                visits.size(), [&](std::size_t i) { ++visits[i]; }, 1 + k % 100);
+        if (k % 4000 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20)); // the helpers fall asleep
+        if (std::any_of(visits.begin(), visits.end(), [k](std::uint32_t v) { return v != k; })) FAIL("loop " << k);
+    }
+    CHECK(run.threads() == 3);
+    CHECK(execution(0).threads() == 1);
+    CHECK(execution(-5).threads() == 1);
+}

@@ -7,9 +7,9 @@
 
 #include <clast/core/vector.hpp>
 
-// GCC remarks that functions of vectors are called in another way with other instruction sets. Nothing here is called
+// Compilers remark that functions of vectors are called in another way with other instruction sets. Nothing here is called
 // across libraries; the remark stays off because templates draw it at the very end of the file that uses them.
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) // Clang too
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
