@@ -339,12 +339,15 @@ options checked_options(const raw& r) {
 }
 
 options resumed_options(const CLI::App& app, const raw& r) {
-    for (const CLI::Option* given : app.get_options())
-        if (given->count() > 0 && !allowed_with_resume(given->get_name()))
+    for (const CLI::Option* given : app.get_options()) {
+        // get_name() is empty for options that --help does not list
+        const std::string name = "--" + given->get_lnames().at(0);
+        if (given->count() > 0 && !allowed_with_resume(name))
             throw input_error(fmt::format(
                 "{}: an option that decides results cannot be changed by --resume, which goes on with those of '{}'. "
                 "Leave it out, or start a new run with another --out.",
-                given->get_name(), r.resume));
+                name, r.resume));
+    }
     const fs::path folder = r.resume;
     std::ifstream file(folder / arguments_file);
     if (!file)
