@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bundles that the program offers: kind of membrane times breakable or not. Shapes, strengths and criteria are data.
-// Each is instantiated in its own file (bundle_*.cpp), so that they compile side by side.
+// The bundles that the program offers: kind of membrane times breakable or not. Shapes, strengths and criteria are
+// data. Each is instantiated in its own file (bundle_*.cpp), so that they compile side by side.
 #pragma once
 
 #include <clast/boundaries/solid_strips.hpp>

@@ -35,8 +35,8 @@ constexpr double largest_scale = 2.0;
 
 /// What was typed; empty where the option was not given.
 struct raw {
-    std::string shape, strength, membrane, rings, tiles, confining, scale, strain, inertial_number, criterion,
-        weibull, replacement, birth, bond_stiffness, friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
+    std::string shape, strength, membrane, rings, tiles, confining, scale, strain, inertial_number, criterion, weibull,
+        replacement, birth, bond_stiffness, friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
         stop_after, protocol, preset;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
@@ -119,7 +119,8 @@ void declare(CLI::App& app, raw& r) {
         "when a grain breaks: nominal_force, hertz_literal, hertz_calibrated,\noctahedral, mean, major_principal, none",
         "nominal_force");
     add("--weibull", r.weibull, "M",
-        "Weibull modulus of the scatter of grain strengths (and of their bonds), 1 to 100;\nnone: every grain as strong as Table 1 says",
+        "Weibull modulus of the scatter of grain strengths (and of their bonds), 1 to 100;\nnone: every grain as "
+        "strong as Table 1 says",
         "3");
     add("--replacement", r.replacement, "NAME", "what becomes of it: modified (bonded cluster, MPRM), none",
         "modified");
@@ -507,7 +508,8 @@ std::string paper_preset_text() {
          "force over d^2. Eq. 1 is kept: hertz_literal, hertz_calibrated"},
         {"Scatter of strength", "not given", "D1",
          "Weibull modulus 3 about the characteristic strength, bonds of a grain scaled with it (--weibull)",
-         "a characteristic strength is the value that 37 % of grains survive; with one strength for all, no contact of a "
+         "a characteristic strength is the value that 37 % of grains survive; with one strength for all, no contact of "
+         "a "
          "4B specimen at 2 MPa reaches 0.9 sigma d^2 (largest found: half of it) and nothing breaks (--weibull none)"},
         {"Bond tensile strength", "0.3e8 / 0.5e8 / 4.2e8 N/m2", "D2",
          "stress, as printed; bond radius = smaller pebble, moment contribution 1",

@@ -49,7 +49,7 @@ struct options {
     std::uint64_t seed = 1;
     // how grains break
     std::string criterion = "nominal_force";
-    double weibull = 3.0; ///< Weibull modulus of the scatter of grain strengths, 0: none
+    double weibull = 3.0;                 ///< Weibull modulus of the scatter of grain strengths, 0: none
     std::string replacement = "modified"; ///< "modified" or "none"
     std::string birth = "warm";           ///< "warm" or "zero"
     bond_reading bond_stiffness_reading = bond_reading::force;

@@ -25,21 +25,18 @@
 namespace triaxial {
 
 /// What a checkpoint holds: the test and how far its files had got.
-template <class Test>
-struct saved_run {
+template <class Test> struct saved_run {
     Test* test;
     result_position at;
 
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         test->archive(a);
         a(at);
     }
 };
 
 /// Passes rows, events, snapshots and checkpoints on to the folder of results.
-template <class Test>
-class watcher : public clast::observer {
+template <class Test> class watcher : public clast::observer {
   public:
     watcher(const options& o, Test& test, result_folder& folder, std::string fingerprint)
         : options_(o), test_(test), folder_(folder), fingerprint_(std::move(fingerprint)), bar_(o.quiet),
@@ -146,8 +143,7 @@ inline std::vector<clast::stage> stages_of(const options& o) {
     return s;
 }
 
-template <class P>
-clast::triaxial_setup<P> setup_of(const options& o) {
+template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
     using namespace clast;
     table_1 materials;
     materials.pebble.friction = o.friction;
@@ -164,9 +160,10 @@ clast::triaxial_setup<P> setup_of(const options& o) {
     }();
     typename P::replacement replacement{};
     if constexpr (P::replacement::makes_bonds) {
-        replacement.bond.reading = o.bond_stiffness_reading == bond_reading::force      ? bonds::stiffness_reading::force
-                                   : o.bond_stiffness_reading == bond_reading::modulus ? bonds::stiffness_reading::modulus
-                                                                                       : bonds::stiffness_reading::per_area;
+        replacement.bond.reading = o.bond_stiffness_reading == bond_reading::force ? bonds::stiffness_reading::force
+                                   : o.bond_stiffness_reading == bond_reading::modulus
+                                       ? bonds::stiffness_reading::modulus
+                                       : bonds::stiffness_reading::per_area;
         replacement.bond.normal_stiffness = o.bond_stiffness;
         replacement.bond.shear_stiffness = 0.5 * o.bond_stiffness;
         replacement.bond.tensile_strength = o.rock().bond_tension;
@@ -189,8 +186,7 @@ clast::triaxial_setup<P> setup_of(const options& o) {
             .rows = std::max<std::int64_t>(1, std::llround(o.rows * 0.25 / o.strain))};
 }
 
-template <class P>
-int run_bundle(const options& o, const char* name) {
+template <class P> int run_bundle(const options& o, const char* name) {
     using test_type = clast::triaxial_test<P>;
     const std::string fingerprint = fmt::format("bundle = {}\n{}", name, physics_text(o));
     test_type test(setup_of<P>(o), stages_of(o));
@@ -234,9 +230,9 @@ int run_bundle(const options& o, const char* name) {
                    .more = {{"list_rebuilds", static_cast<double>(test.sim().totals().rebuilds)},
                             {"sub_steps_of_light_bodies", static_cast<double>(test.sim().fast_steps())},
                             {"tile_steps_at_speed_limit_share",
-                             counters.tile_steps > 0 ? static_cast<double>(counters.capped) /
-                                                           static_cast<double>(counters.tile_steps)
-                                                     : 0.0},
+                             counters.tile_steps > 0
+                                 ? static_cast<double>(counters.capped) / static_cast<double>(counters.tile_steps)
+                                 : 0.0},
                             {"latched_pair_steps", static_cast<double>(counters.latched_pair_steps)}}});
     return 0;
 }

@@ -30,11 +30,12 @@ struct break_report {
     state before; ///< what it carried (world axes)
 };
 
-/// Clusters of one shape. Cluster c sits in lane c % 8 of batch c / 8 for life, so that one loop over the lanes does the
-/// same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set.
+/// Clusters of one shape. Cluster c sits in lane c % 8 of batch c / 8 for life, so that one loop over the lanes does
+/// the same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set.
 ///
 /// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with
-/// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers it).
+/// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers
+/// it).
 class cluster_pool {
   public:
     static constexpr std::size_t lanes = clast::lanes;
@@ -82,14 +83,16 @@ class cluster_pool {
     }
 
     /// Number of inner steps for an outer step: the highest mode turns by at most 1 rad per inner step. Local damping
-    /// a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at a = 0.7; the rest is margin.
+    /// a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at a = 0.7; the rest is
+    /// margin.
     int substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt * shape_.highest_frequency))); }
 
-    /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes, lane
-    /// by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the unit
-    /// normals at the middle of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of
-    /// 1 us strains its bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes, are left alone. Returns the energy taken out by damping
-    /// per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
+    /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes,
+    /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the
+    /// unit normals at the middle of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in
+    /// steps of 1 us strains its bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes,
+    /// are left alone. Returns the energy taken out by damping per lane; broken bonds are appended to `broken`, ordered
+    /// by step, bond and lane.
     template <class Normal>
     std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
                                       std::span<const pebble_load> load, std::span<vec3> displacement, Normal&& normal,
@@ -141,7 +144,8 @@ class cluster_pool {
         }
         const int steps = substeps(dt);
         const double h = dt / steps;
-        if (gather(batch, 0.0, v, w, f, t, axis)) collect(batch, axis, f, t, broken); // loads of the bonds as they stand
+        if (gather(batch, 0.0, v, w, f, t, axis))
+            collect(batch, axis, f, t, broken); // loads of the bonds as they stand
         for (int step = 0; step < steps; ++step) {
             kick(h, v, w, fe, te, f, t, u, live, dissipated);
             if (gather(batch, h, v, w, f, t, axis)) collect(batch, axis, f, t, broken);
@@ -159,16 +163,15 @@ class cluster_pool {
         return dissipated;
     }
 
-    template <class A>
-    void archive(A& a) {
-        a(size_, values_, intact_, strength_);
-    }
+    template <class A> void archive(A& a) { a(size_, values_, intact_, strength_); }
 
   private:
     enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
 
     std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
-    double& value(std::size_t c, std::size_t b, std::size_t f) { return values_[base(c / lanes, b) + f * lanes + c % lanes]; }
+    double& value(std::size_t c, std::size_t b, std::size_t f) {
+        return values_[base(c / lanes, b) + f * lanes + c % lanes];
+    }
     double value(std::size_t c, std::size_t b, std::size_t f) const {
         return values_[base(c / lanes, b) + f * lanes + c % lanes];
     }
@@ -207,7 +210,8 @@ class cluster_pool {
     }
 
     /// Stretches all bonds of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
-    bool gather(std::size_t batch, double h, const double* v, const double* w, double* f, double* t, const double* axis) {
+    bool gather(std::size_t batch, double h, const double* v, const double* w, double* f, double* t,
+                const double* axis) {
         const std::size_t n = shape_.size(), m = bonds();
         std::fill(f, f + n * 3 * lanes, 0.0);
         std::fill(t, t + n * 3 * lanes, 0.0);
@@ -221,7 +225,8 @@ class cluster_pool {
             const vec3x8 normal = load3x8(axis + b * 3 * lanes), wa = load3x8(w + i), wb = load3x8(w + j);
             state_x8 bond{load8(s), load3x8(s + shear * lanes), load8(s + twist * lanes), load3x8(s + bending * lanes)};
             const lane8 step = h * load8(s + alive * lanes);
-            stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3x8(v + i), wa, load3x8(v + j), wb), wb - wa, step);
+            stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3x8(v + i), wa, load3x8(v + j), wb), wb - wa,
+                    step);
             store8(s, bond.n);
             store3x8(s + shear * lanes, bond.v);
             store8(s + twist * lanes, bond.mt);
@@ -239,8 +244,8 @@ class cluster_pool {
         return largest >= 0.0;
     }
 
-    /// Reports and removes the bonds that fail after a gather, and takes their loads off the sums: a failed bond lets go
-    /// at once.
+    /// Reports and removes the bonds that fail after a gather, and takes their loads off the sums: a failed bond lets
+    /// go at once.
     void collect(std::size_t batch, const double* axis, double* f, double* t, std::vector<break_report>& broken) {
         for (std::size_t b = 0; b < bonds(); ++b)
             for (std::size_t l = 0; l < lanes; ++l) {
@@ -249,7 +254,8 @@ class cluster_pool {
                 const state s = get(c, b);
                 const failure_flags fails = failing(shape_.bond[b], s, strength_[c]);
                 if (!fails.tension && !fails.shear) continue;
-                const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l], axis[(b * 3 + 2) * lanes + l]};
+                const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l],
+                                  axis[(b * 3 + 2) * lanes + l]};
                 const wrench wr = loads(s, normal, shape_.arm[b].a, shape_.arm[b].b);
                 for (int a = 0; a < 3; ++a) {
                     const auto k = static_cast<std::size_t>(a) * lanes + l;

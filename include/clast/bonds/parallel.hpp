@@ -96,8 +96,7 @@ struct state_x8 {
 };
 
 /// Force and moments that a bond exerts on its two balls.
-template <class Vector>
-struct basic_wrench {
+template <class Vector> struct basic_wrench {
     Vector force_a;  ///< on a (N); on b the opposite
     Vector moment_a; ///< on a about its centre (N m)
     Vector moment_b; ///< on b about its centre (N m)
@@ -117,14 +116,13 @@ inline void stretch(const constants& c, State& s, const Vector& n, const Vector&
 
 /// Relative velocity at the bond point of two balls, b minus a (m/s); ra and rb: from their centres to that point (m).
 template <class Vector>
-inline Vector relative_velocity(const Vector& n, double ra, double rb, const Vector& va, const Vector& wa, const Vector& vb,
-                                const Vector& wb) {
+inline Vector relative_velocity(const Vector& n, double ra, double rb, const Vector& va, const Vector& wa,
+                                const Vector& vb, const Vector& wb) {
     return vb - va - cross(ra * wa + rb * wb, n);
 }
 
 /// Force and moments on the balls, with the lever arms from their centres to the bond point.
-template <class State, class Vector>
-inline auto loads(const State& s, const Vector& n, double ra, double rb) {
+template <class State, class Vector> inline auto loads(const State& s, const Vector& n, double ra, double rb) {
     const Vector f = s.n * n + s.v;
     const Vector m = s.mt * n + s.mb;
     const Vector nf = cross(n, s.v);
@@ -155,17 +153,15 @@ inline stresses stresses_of(const constants& c, const state& s) {
     return {s.n * c.per_area + norm(s.mb) * c.per_bending, norm(s.v) * c.per_area + std::abs(s.mt) * c.per_twist};
 }
 
-/// How far a bond is beyond its strength, in squares of stress (Pa^2), so that no root is needed; it fails at 0 or above.
-/// The peripheral stresses against tensile strength, and against tau_c = c - s tan(phi_b) with s the mean normal stress
-/// (no bending), at most the tensile strength.
-template <class Real>
-struct margins {
+/// How far a bond is beyond its strength, in squares of stress (Pa^2), so that no root is needed; it fails at 0 or
+/// above. The peripheral stresses against tensile strength, and against tau_c = c - s tan(phi_b) with s the mean normal
+/// stress (no bending), at most the tensile strength.
+template <class Real> struct margins {
     Real tension;
     Real shear;
 };
 /// `factor` scales both strengths: that of one grain over that of its kind.
-template <class State, class Real>
-inline auto margins_of(const constants& c, const State& s, const Real& factor) {
+template <class State, class Real> inline auto margins_of(const constants& c, const State& s, const Real& factor) {
     using real = decltype(s.n * 1.0);
     const real mean = s.n * c.per_area;
     const real none = mean * 0.0;

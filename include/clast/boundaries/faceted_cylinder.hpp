@@ -498,7 +498,8 @@ void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<con
             const std::size_t at = index(k * per_ring + i);
             const unit_load& u = units_[at];
             if (u.load.stiffness > 0.0)
-                group_.set(at, d.value * u.area - u.load.force, std::max(u.load.stiffness, set_.contact_stiffness_floor));
+                group_.set(at, d.value * u.area - u.load.force,
+                           std::max(u.load.stiffness, set_.contact_stiffness_floor));
         }
     const auto unit_of = [&](std::int32_t facet) {
         const int j = facet - first_lateral_facet;
@@ -510,11 +511,11 @@ void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<con
     for (int k = active_first_; k <= active_last_; ++k) {
         for (int i = 0; i < per_ring; ++i) {
             const unit_load& u = units_[index(k * per_ring + i)];
-            const double v = u.load.stiffness > 0.0
-                                 ? std::clamp(d.gain * group_.displacement(index(k * per_ring + i)) / dt, -d.max_speed,
-                                              d.max_speed)
-                                 : control::inward_velocity({d.value * u.area, u.load.force, 0.0,
-                                                             set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
+            const double v =
+                u.load.stiffness > 0.0
+                    ? std::clamp(d.gain * group_.displacement(index(k * per_ring + i)) / dt, -d.max_speed, d.max_speed)
+                    : control::inward_velocity(
+                          {d.value * u.area, u.load.force, 0.0, set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
             const int tiles = per_ring == 1 ? around_ : 1;
             for (int t = i; t < i + tiles; ++t) velocity_[tile(k, t)] = v;
             ++counters_.tile_steps;

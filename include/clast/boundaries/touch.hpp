@@ -49,9 +49,9 @@ constexpr double elastic_energy(const touches& t, double k_platen, double k_late
     return energy;
 }
 
-/// How the shares (touch::depth) of the lateral facets that one pebble touches answer to a move of one of them along its
-/// normal: the inverse Gram matrix of the normals, in the order of the lateral touches. 1 for a facet alone; large for
-/// nearly parallel facets, because a small move of one against the other shifts the whole load between them.
+/// How the shares (touch::depth) of the lateral facets that one pebble touches answer to a move of one of them along
+/// its normal: the inverse Gram matrix of the normals, in the order of the lateral touches. 1 for a facet alone; large
+/// for nearly parallel facets, because a small move of one against the other shifts the whole load between them.
 using sharing_matrix = std::array<std::array<double, 3>, 3>;
 inline sharing_matrix sharing(const touches& t) {
     std::array<vec3, 3> n;

@@ -8,8 +8,7 @@
 namespace clast::contacts {
 
 /// Geometry of a contact of pebbles i and j at the present instant. T is any arithmetic-like type.
-template <class T>
-struct overlap {
+template <class T> struct overlap {
     T nx, ny, nz; ///< unit normal from i to j
     T depth;      ///< overlap (m), positive when touching
     T radius_i;   ///< (m)
@@ -17,16 +16,14 @@ struct overlap {
 };
 
 /// Relative motion over the last step, at the contact point.
-template <class T>
-struct motion {
+template <class T> struct motion {
     T ux, uy, uz; ///< tangential displacement of i relative to j over the step (m), normal to the mid-step normal
     T spin;       ///< mean rotation of both bodies about the normal over the step (rad)
     T approach;   ///< normal speed of approach (m/s)
 };
 
 /// What a law answers.
-template <class T>
-struct response {
+template <class T> struct response {
     T fx, fy, fz; ///< force on i (N); the force on j is opposite
     T dissipated; ///< energy dissipated by the contact in this step (J)
 };
@@ -35,14 +32,14 @@ struct response {
 /// `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the time-step estimate and the servo.
 template <class L>
 concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename L::history> &&
-                      std::default_initializable<typename L::history> &&
-                      requires(const L law, overlap<double> o, motion<double> m, typename L::history& h,
-                               const typename L::history& ch, double dt) {
-                          { law(o, m, h, dt) } -> std::same_as<response<double>>;
-                          { law.stored(o, ch) } -> std::convertible_to<double>;
-                          { law.normal_stiffness(o) } -> std::convertible_to<double>;
-                          { law.shear_stiffness(o) } -> std::convertible_to<double>;
-                          { L::is_resting(ch) } -> std::same_as<bool>;
-                      };
+    std::default_initializable<typename L::history> &&
+    requires(const L law, overlap<double> o, motion<double> m, typename L::history& h, const typename L::history& ch,
+             double dt) {
+    { law(o, m, h, dt) } -> std::same_as<response<double>>;
+    { law.stored(o, ch) } -> std::convertible_to<double>;
+    { law.normal_stiffness(o) } -> std::convertible_to<double>;
+    { law.shear_stiffness(o) } -> std::convertible_to<double>;
+    { L::is_resting(ch) } -> std::same_as<bool>;
+};
 
 } // namespace clast::contacts

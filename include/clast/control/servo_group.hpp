@@ -14,8 +14,8 @@ namespace clast::control {
 /// Two tiles that share a pebble near their seam pass its whole load to each other over a fraction of a micrometre. On
 /// its own diagonal stiffness each of them would either chase the other for ever (stiffness underrated) or lag behind
 /// its load (overrated). Together they move at once with the pebble and slowly against each other.
-/// K is symmetric and positive definite; conjugate gradients with the diagonal as preconditioner solve it to 1e-6 of the
-/// first residual or in 60 passes, whatever comes first. Walls that were not set keep displacement 0.
+/// K is symmetric and positive definite; conjugate gradients with the diagonal as preconditioner solve it to 1e-6 of
+/// the first residual or in 60 passes, whatever comes first. Walls that were not set keep displacement 0.
 class servo_group {
   public:
     /// n walls, none set, none coupled.

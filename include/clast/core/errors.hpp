@@ -18,7 +18,8 @@ class input_error : public std::runtime_error {
     /// "--confining: -2 MPa is not allowed; allowed: ...; try ..."
     input_error(const std::string& option, const std::string& value, const std::string& allowed,
                 const std::string& way_out)
-        : std::runtime_error(fmt::format("{}: '{}' is not accepted. Allowed: {}. {}", option, value, allowed, way_out)) {}
+        : std::runtime_error(
+              fmt::format("{}: '{}' is not accepted. Allowed: {}. {}", option, value, allowed, way_out)) {}
 };
 
 /// What a failed run has to say (design invariant 5: no silent failure). All texts are whole sentences or phrases.
@@ -34,8 +35,8 @@ struct failure {
 class run_error : public std::runtime_error {
   public:
     explicit run_error(failure f)
-        : std::runtime_error(fmt::format("{}\n  where: {}\n  when: {}\n  why: {}\n  what to change: {}", f.what, f.where,
-                                         f.when, f.why, f.advice)),
+        : std::runtime_error(fmt::format("{}\n  where: {}\n  when: {}\n  why: {}\n  what to change: {}", f.what,
+                                         f.where, f.when, f.why, f.advice)),
           details(std::move(f)) {}
 
     failure details;

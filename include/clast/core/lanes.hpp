@@ -7,16 +7,16 @@
 
 #include <clast/core/vector.hpp>
 
-// Compilers remark that functions of vectors are called in another way with other instruction sets. Nothing here is called
-// across libraries; the remark stays off because templates draw it at the very end of the file that uses them.
+// Compilers remark that functions of vectors are called in another way with other instruction sets. Nothing here is
+// called across libraries; the remark stays off because templates draw it at the very end of the file that uses them.
 #if defined(__GNUC__) // Clang too
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 namespace clast {
 
-/// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set, compiled to
-/// what the target has).
+/// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set,
+/// compiled to what the target has).
 using lane8 = double __attribute__((vector_size(64)));
 inline constexpr std::size_t lanes = 8;
 

@@ -42,7 +42,8 @@ class helpers {
         ++generation_;
         // generation, number of chunks and next chunk in one word: a helper that is late cannot take a chunk of a loop
         // it has not seen
-        ticket_.store((generation_ & 0xffffff) << 40 | static_cast<std::uint64_t>(chunks) << 20, std::memory_order_seq_cst);
+        ticket_.store((generation_ & 0xffffff) << 40 | static_cast<std::uint64_t>(chunks) << 20,
+                      std::memory_order_seq_cst);
         if (sleepers_.load(std::memory_order_seq_cst) > 0) ticket_.notify_all();
         while (take()) {
         }
@@ -74,8 +75,7 @@ class helpers {
             if (take()) continue;
             // loops follow each other within microseconds: look again for a while before falling asleep
             bool fresh = false;
-            for (int spin = 0; spin < 20000 && !fresh; ++spin)
-                fresh = ticket_.load(std::memory_order_relaxed) != seen;
+            for (int spin = 0; spin < 20000 && !fresh; ++spin) fresh = ticket_.load(std::memory_order_relaxed) != seen;
             if (fresh) continue;
             sleepers_.fetch_add(1, std::memory_order_seq_cst);
             ticket_.wait(seen, std::memory_order_seq_cst);
@@ -107,8 +107,7 @@ class execution {
 
     /// body(i) for i in [0, n). Iterations must not depend on each other. `grain`: iterations worth handing to another
     /// thread (about a microsecond of work or more); shorter loops stay on the calling thread.
-    template <class F>
-    void for_each(std::size_t n, F&& body, std::size_t grain = 64) const {
+    template <class F> void for_each(std::size_t n, F&& body, std::size_t grain = 64) const {
         if (helpers_ == nullptr || n < 2 * grain) {
             do_span(body, 0, n);
             return;
@@ -127,8 +126,7 @@ class execution {
     }
 
     /// Sum of value(i) over [0, n) in a fixed order: chunks of 256 are summed one by one, then the partial sums.
-    template <class T, class F>
-    T sum(std::size_t n, T zero, F&& value) const {
+    template <class T, class F> T sum(std::size_t n, T zero, F&& value) const {
         std::vector<T> partial(chunks(n), zero);
         for_each(
             partial.size(),
@@ -144,8 +142,7 @@ class execution {
     }
 
     /// Largest value(i) over [0, n), at least `floor`.
-    template <class F>
-    double max(std::size_t n, double floor, F&& value) const {
+    template <class F> double max(std::size_t n, double floor, F&& value) const {
         std::vector<double> partial(chunks(n), floor);
         for_each(
             partial.size(),
@@ -164,8 +161,7 @@ class execution {
   private:
     /// The one place where a body is compiled: in two copies, one for one thread and one for several, a compiler might
     /// contract a*b + c in one and not in the other, and the bits would differ.
-    template <class F>
-    [[gnu::noinline]] static void do_span(F& body, std::size_t begin, std::size_t end) {
+    template <class F> [[gnu::noinline]] static void do_span(F& body, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) body(i);
     }
 

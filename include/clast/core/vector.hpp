@@ -61,7 +61,9 @@ struct mat3 {
     }
 };
 
-constexpr vec3 operator*(const mat3& m, const vec3& a) { return {dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)}; }
+constexpr vec3 operator*(const mat3& m, const vec3& a) {
+    return {dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)};
+}
 constexpr mat3 operator*(double s, const mat3& m) { return {{s * m.row[0], s * m.row[1], s * m.row[2]}}; }
 constexpr mat3 operator+(mat3 a, const mat3& b) { return a += b; }
 constexpr mat3 outer(const vec3& a, const vec3& b) { return {{a.x * b, a.y * b, a.z * b}}; }

@@ -28,12 +28,11 @@ struct pebble_pair {
 };
 
 /// Half list sorted by (i, j). An empty history (frictionless law) takes no memory.
-template <class History>
-struct contact_list {
+template <class History> struct contact_list {
     static constexpr bool remembers = !std::is_empty_v<History>;
 
     std::vector<pebble_pair> pairs;
-    std::vector<History> history; ///< empty if the law has none
+    std::vector<History> history;     ///< empty if the law has none
     std::vector<std::uint8_t> bonded; ///< 1: an intact bond carries this pair and the contact is asleep
     std::vector<force_row> rows;
 
@@ -49,8 +48,7 @@ struct contact_list {
         return it != pairs.end() && *it == p ? static_cast<std::size_t>(it - pairs.begin()) : pairs.size();
     }
 
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         a(pairs, bonded);
         if constexpr (remembers) a(history);
         rows.resize(pairs.size()); // written anew by the next step
@@ -67,8 +65,7 @@ struct incidence {
     }
 
     /// n bodies; each_row(f) calls f(row, side, body) for all rows in order, twice in all.
-    template <class Rows>
-    void build(std::size_t n, Rows&& each_row) {
+    template <class Rows> void build(std::size_t n, Rows&& each_row) {
         start.assign(n + 1, 0);
         each_row([&](std::size_t, std::uint32_t, std::int32_t body) { ++start[static_cast<std::size_t>(body) + 1]; });
         for (std::size_t b = 0; b < n; ++b) start[b + 1] += start[b];
@@ -79,10 +76,7 @@ struct incidence {
         });
     }
 
-    template <class A>
-    void archive(A& a) {
-        a(start, row);
-    }
+    template <class A> void archive(A& a) { a(start, row); }
 };
 
 } // namespace clast

@@ -8,10 +8,10 @@
 //   clumps sum slow rows and the mean of the fast ones, are damped and integrated
 //   criterion and replacement every few steps; servo; boundary moves
 //
-// Multirate: a contact that involves a ball is integrated with the step that the lightest ball needs, over the span from
-// t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks for.
-// Bonds take a smaller step still. So a replacement never shrinks the step of the specimen, and every force has the
-// opposite force in the same step.
+// Multirate: a contact that involves a ball is integrated with the step that the lightest ball needs, over the span
+// from t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks
+// for. Bonds take a smaller step still. So a replacement never shrinks the step of the specimen, and every force has
+// the opposite force in the same step.
 #pragma once
 
 #include <algorithm>
@@ -42,39 +42,37 @@
 namespace clast {
 
 /// Parameters of an engine that are values, not types. SI units.
-template <triaxial_policies P>
-struct engine_settings {
+template <triaxial_policies P> struct engine_settings {
     typename P::contact grain_contact;   ///< pebble against pebble
     typename P::contact platen_contact;  ///< pebble against platen
     typename P::contact lateral_contact; ///< pebble against the lateral wall
     typename P::breakage breakage;
     typename P::replacement replacement;
-    double damping = 0.7;  ///< local damping coefficient in [0, 1)
-    double safety = 0.8;   ///< of the time-step estimate, in (0, 1]
-    double skin = 0.5e-3;  ///< m: pairs with a smaller gap are listed, > 0
+    double damping = 0.7;       ///< local damping coefficient in [0, 1)
+    double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
+    double skin = 0.5e-3;       ///< m: pairs with a smaller gap are listed, > 0
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
     execution run = execution(1);
 };
 
 /// State that only breakable specimens have.
 struct breakage_state {
-    std::vector<bonds::cluster_pool> pools;                  ///< per shape
-    std::vector<std::vector<std::int32_t>> members;          ///< per pool: grain of each cluster
-    std::vector<std::int32_t> fragment;                      ///< per pebble: smallest pebble of its piece
-    std::vector<std::uint8_t> bonded;                        ///< per pebble: belongs to a cluster with intact bonds
-    std::vector<std::int32_t> balls;                         ///< pebbles that move on their own, ascending
-    std::vector<std::uint8_t> halo;                          ///< per grain: a clump with a ball near by
+    std::vector<bonds::cluster_pool> pools;         ///< per shape
+    std::vector<std::vector<std::int32_t>> members; ///< per pool: grain of each cluster
+    std::vector<std::int32_t> fragment;             ///< per pebble: smallest pebble of its piece
+    std::vector<std::uint8_t> bonded;               ///< per pebble: belongs to a cluster with intact bonds
+    std::vector<std::int32_t> balls;                ///< pebbles that move on their own, ascending
+    std::vector<std::uint8_t> halo;                 ///< per grain: a clump with a ball near by
     struct mean_load {
         vec3 force, moment;
         double dissipated = 0.0;
     };
-    std::vector<mean_load> fast_load;                        ///< per grain: mean over the sub-steps of this step
-    std::vector<fracture_event> events;                      ///< since the last call of take_events
-    double lag = 0.0; ///< s: how far the motion of balls trails t_n between steps (half a step)
+    std::vector<mean_load> fast_load;   ///< per grain: mean over the sub-steps of this step
+    std::vector<fracture_event> events; ///< since the last call of take_events
+    double lag = 0.0;                   ///< s: how far the motion of balls trails t_n between steps (half a step)
     double time = 0.0;
 
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         for (auto& p : pools) p.archive(a); // lattices are remade from shapes, only their state is kept
         for (auto& m : members) a(m);
         a(fragment, bonded, balls, halo, lag); // events must have been taken
@@ -82,8 +80,7 @@ struct breakage_state {
 };
 
 struct nothing {
-    template <class A>
-    void archive(A&) {}
+    template <class A> void archive(A&) {}
 };
 
 /// Totals that an audit needs (J), and counters.
@@ -100,8 +97,7 @@ struct engine_totals {
 };
 
 /// A specimen, its boundary and the policies that move them. Construct complete; then call step().
-template <triaxial_policies P>
-class engine {
+template <triaxial_policies P> class engine {
   public:
     using contact = typename P::contact;
     using history = typename contact::history;
@@ -178,11 +174,7 @@ class engine {
     std::span<const boundaries::facet_load> loads() const { return loads_; }
     const contact_list<history>& slow_contacts() const { return slow_; }
     const contact_list<history>& fast_contacts() const { return fast_; }
-    const breakage_state& breakage() const
-        requires breakable
-    {
-        return broken_;
-    }
+    const breakage_state& breakage() const requires breakable { return broken_; }
     /// Broken bonds since the last call, in the order in which they broke.
     std::vector<fracture_event> take_events() {
         if constexpr (breakable) return std::exchange(broken_.events, {});
@@ -210,10 +202,10 @@ class engine {
 
     /// Complete state, list order and reference positions included: a run that goes on from it has the same bits.
     /// Rows are not part of it, because a step writes all of them before it reads any; events must have been taken.
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         place_all();
-        a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_rebuild_, estimate_due_);
+        a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_rebuild_,
+          estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(slow_, slow_wall_, slow_of_, reference_, reference_turn_, needed_, wall_travel_);
@@ -225,8 +217,7 @@ class engine {
     // ---- what measurements read ----------------------------------------------------------------------------------
 
     /// Calls f(row, i, j) for all listed contacts; body ids of i and j through grains.owner.
-    template <class F>
-    void each_contact(F&& f) const {
+    template <class F> void each_contact(F&& f) const {
         for (std::size_t k = 0; k < slow_.size(); ++k) f(slow_.rows[k], slow_.pairs[k]);
         for (std::size_t k = 0; k < fast_.size(); ++k) f(fast_.rows[k], fast_.pairs[k]);
     }
@@ -234,17 +225,13 @@ class engine {
     struct wall_row {
         std::int32_t pebble = -1;
         boundaries::touches touch;
-        vec3 force;          ///< on the pebble
-        double lateral = 0.0; ///< size of the lateral force (N)
+        vec3 force;                     ///< on the pebble
+        double lateral = 0.0;           ///< size of the lateral force (N)
         std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
 
-        template <class A>
-        void archive(A& a) {
-            a(pebble);
-        }
+        template <class A> void archive(A& a) { a(pebble); }
     };
-    template <class F>
-    void each_wall_row(F&& f) const {
+    template <class F> void each_wall_row(F&& f) const {
         for (const wall_row& w : slow_wall_) f(w);
         for (const wall_row& w : fast_wall_) f(w);
     }
@@ -361,14 +348,16 @@ class engine {
         const body_motion& b = grains.motion[oj];
         // velocities of the pebbles' centres, then relative motion of i against j at the contact point over the last
         // step, split by the normal of mid-step
-        const vec3 vi = a.v + cross(a.w, xi - centre_of(oi, xi, ahead)), vj = b.v + cross(b.w, xj - centre_of(oj, xj, ahead));
+        const vec3 vi = a.v + cross(a.w, xi - centre_of(oi, xi, ahead)),
+                   vj = b.v + cross(b.w, xj - centre_of(oj, xj, ahead));
         const vec3 centres = vj - vi;
         const vec3 relative = cross((ri - 0.5 * depth) * a.w + (rj - 0.5 * depth) * b.w, n) - centres;
         const vec3 mid = d - (0.5 * h) * centres;
         const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
         const double spin = 0.5 * h * dot(a.w + b.w, n);
-        const auto answer = settings.grain_contact(contacts::overlap<double>{n.x, n.y, n.z, depth, ri, rj},
-                                                   contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, n)}, local, h);
+        const auto answer =
+            settings.grain_contact(contacts::overlap<double>{n.x, n.y, n.z, depth, ri, rj},
+                                   contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, n)}, local, h);
         row.force = {answer.fx, answer.fy, answer.fz};
         row.point = point;
         row.dissipated = answer.dissipated;
@@ -591,7 +580,8 @@ class engine {
                         for (std::size_t k = 0; k < n; ++k) {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             const body_motion& m = grains.motion[b];
-                            const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[first[l] + k], 0.0);
+                            const load_sum s =
+                                sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[first[l] + k], 0.0);
                             balls[l * n + k] = {m.v, m.w};
                             load[l * n + k] = {s.force, s.moment};
                             grains.losses[b].friction += s.dissipated;
@@ -698,17 +688,17 @@ class engine {
                     l.moment += cross(point - grains.position[at(pebble)], f);
                 });
                 const clump_rotation& turn = grains.turning[g];
-                marked_.push_back({static_cast<std::int32_t>(g),
-                                   settings.replacement.born(broken_.pools[at(one.shape)].shape(), load, turn.q,
-                                                             grains.motion[g].w)});
+                marked_.push_back(
+                    {static_cast<std::int32_t>(g), settings.replacement.born(broken_.pools[at(one.shape)].shape(), load,
+                                                                             turn.q, grains.motion[g].w)});
             }
         }
     }
 
     /// f(pebble, neighbour, force, point) for every row of clump g; neighbour: body id, or -1 - facet.
-    template <class F>
-    void each_row_of(std::size_t g, F&& f) const {
-        const auto visit = [&](const incidence& of, const contact_list<history>& list, const std::vector<wall_row>& wall) {
+    template <class F> void each_row_of(std::size_t g, F&& f) const {
+        const auto visit = [&](const incidence& of, const contact_list<history>& list,
+                               const std::vector<wall_row>& wall) {
             for (std::uint32_t entry : of.of(g)) {
                 const std::size_t r = entry >> 1;
                 if (r < list.size()) {
@@ -819,8 +809,8 @@ class engine {
 
     // ---- lists ----------------------------------------------------------------------------------------------------
 
-    /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since the
-    /// last rebuild against the skin, the walls' own travel included.
+    /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since
+    /// the last rebuild against the skin, the walls' own travel included.
     void check_displacements() {
         const double bodies = settings.run.max(grains.grain_count(), 0.0, [&](std::size_t g) {
             if (!grains.is_clump(g)) return 0.0;
@@ -847,13 +837,14 @@ class engine {
     [[noreturn]] void explain_nan() const {
         for (std::size_t b = 0; b < grains.motion.size(); ++b)
             if (!is_finite(grains.motion[b].x) || !is_finite(grains.motion[b].v))
-                throw run_error({fmt::format("the motion of body {} is not a finite number", b),
-                                 b < grains.grain_count() ? fmt::format("grain {}", b)
-                                                          : fmt::format("ball {}", b - grains.grain_count()),
-                                 fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time),
-                                 "forces grew without bound: the time step is too large for a contact or a bond, or two "
-                                 "centres passed each other",
-                                 "lower `safety` of the time step, the loading rate or the stress"});
+                throw run_error(
+                    {fmt::format("the motion of body {} is not a finite number", b),
+                     b < grains.grain_count() ? fmt::format("grain {}", b)
+                                              : fmt::format("ball {}", b - grains.grain_count()),
+                     fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time),
+                     "forces grew without bound: the time step is too large for a contact or a bond, or two "
+                     "centres passed each other",
+                     "lower `safety` of the time step, the loading rate or the stress"});
         throw run_error({"a displacement is not a finite number", "unknown body",
                          fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time), "unstable time step",
                          "lower `safety` of the time step"});
@@ -935,7 +926,8 @@ class engine {
             if (!searches::within(pi, b, settings.skin)) continue;
             for (std::size_t j = b0; j < b1; ++j)
                 if (searches::within(pi, {grains.position[j], grains.radius[j]}, settings.skin))
-                    out.push_back({static_cast<std::int32_t>(std::min(i, j)), static_cast<std::int32_t>(std::max(i, j))});
+                    out.push_back(
+                        {static_cast<std::int32_t>(std::min(i, j)), static_cast<std::int32_t>(std::max(i, j))});
         }
     }
 
@@ -1006,9 +998,9 @@ class engine {
                 w.touch = boundary.touch(grains.position[at(w.pebble)], grains.radius[at(w.pebble)]);
             });
         const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
-        const double k_typical = (settings.grain_contact.normal_stiffness(typical) +
-                                  2.0 * settings.grain_contact.shear_stiffness(typical)) /
-                                 3.0;
+        const double k_typical =
+            (settings.grain_contact.normal_stiffness(typical) + 2.0 * settings.grain_contact.shear_stiffness(typical)) /
+            3.0;
         double limit = settings.safety * std::sqrt(smallest_mass_ / (3.0 * k_typical));
         limit = -settings.run.max(grains.grain_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
             if (!grains.is_clump(g)) return -std::numeric_limits<double>::infinity();
@@ -1045,7 +1037,8 @@ class engine {
                     const contacts::overlap<double> o{0, 0, 1, t.depth, rp, rp};
                     const contact& law =
                         t.facet < boundaries::first_lateral_facet ? settings.platen_contact : settings.lateral_contact;
-                    k.add(t.normal, law.normal_stiffness(o), 0.0, grains.position[at(w.pebble)] - rp * t.normal - centre);
+                    k.add(t.normal, law.normal_stiffness(o), 0.0,
+                          grains.position[at(w.pebble)] - rp * t.normal - centre);
                 }
             }
         }
@@ -1069,7 +1062,8 @@ class engine {
                 k = end;
             }
             // the span is (old dt + dt) / 2, and dt grows by 2 % at most
-            fast_steps_ = std::max(1, static_cast<int>(std::ceil(std::max(dt_, 0.5 * dt_ + broken_.lag) / limit - 1e-9)));
+            fast_steps_ =
+                std::max(1, static_cast<int>(std::ceil(std::max(dt_, 0.5 * dt_ + broken_.lag) / limit - 1e-9)));
         }
     }
     double fragment_limit(std::int32_t piece, std::size_t begin, std::size_t end) const {
@@ -1104,9 +1098,9 @@ class engine {
     contact_list<history> fast_; ///< at least one ball
     std::vector<wall_row> slow_wall_, fast_wall_;
     incidence slow_of_, fast_of_;
-    std::vector<vec3> reference_;           ///< per body: centre at the last rebuild
+    std::vector<vec3> reference_;            ///< per body: centre at the last rebuild
     std::vector<quaternion> reference_turn_; ///< per grain
-    std::vector<std::uint8_t> needed_;      ///< per pebble: in a list, so placed in every step
+    std::vector<std::uint8_t> needed_;       ///< per pebble: in a list, so placed in every step
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
     std::vector<double> old_speed_;

@@ -31,9 +31,8 @@ struct triaxial_policies_default {
 
 /// A complete bundle. A policy that is missing or does not satisfy its own concept is named by the compiler.
 template <class P>
-concept triaxial_policies =
-    contacts::contact_law<typename P::contact> && replacements::replacement<typename P::replacement> &&
-    criteria::criterion<typename P::breakage> && boundaries::boundary<typename P::boundary> &&
-    searches::search<typename P::search>;
+concept triaxial_policies = contacts::contact_law<typename P::contact> &&
+    replacements::replacement<typename P::replacement> && criteria::criterion<typename P::breakage> &&
+    boundaries::boundary<typename P::boundary> && searches::search<typename P::search>;
 
 } // namespace clast

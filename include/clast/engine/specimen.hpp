@@ -37,20 +37,20 @@ struct body_losses {
     double damping = 0.0;
 };
 
-/// Grains, pebbles and their bodies. Body g (g < grains) is the clump of grain g; body grains + p is the ball of pebble p,
-/// which exists only in a breakable specimen. `owner` says which of them moves a pebble now.
+/// Grains, pebbles and their bodies. Body g (g < grains) is the clump of grain g; body grains + p is the ball of pebble
+/// p, which exists only in a breakable specimen. `owner` says which of them moves a pebble now.
 struct specimen {
     std::vector<shape> shapes;
     double density = 2650.0; ///< kg/m^3
 
     std::vector<grain> grains;
-    std::vector<vec3> position;        ///< per pebble (m)
-    std::vector<double> radius;        ///< per pebble (m)
-    std::vector<std::int32_t> mother;  ///< per pebble: its grain
-    std::vector<std::int32_t> owner;   ///< per pebble: its body
-    std::vector<body_motion> motion;   ///< per body
+    std::vector<vec3> position;          ///< per pebble (m)
+    std::vector<double> radius;          ///< per pebble (m)
+    std::vector<std::int32_t> mother;    ///< per pebble: its grain
+    std::vector<std::int32_t> owner;     ///< per pebble: its body
+    std::vector<body_motion> motion;     ///< per body
     std::vector<clump_rotation> turning; ///< per grain
-    std::vector<body_losses> losses;   ///< per body
+    std::vector<body_losses> losses;     ///< per body
 
     std::size_t grain_count() const { return grains.size(); }
     std::size_t pebble_count() const { return position.size(); }
@@ -87,8 +87,7 @@ struct specimen {
         return id;
     }
 
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         a(shapes, density, grains, position, radius, mother, owner, motion, turning, losses);
     }
 };

@@ -13,34 +13,34 @@ namespace clast {
 
 /// State of the specimen at one instant. SI units; stress and strain are positive in compression.
 struct sample {
-    double time = 0.0;                ///< model time (s)
-    std::string stage;                ///< name of the running stage
-    double axial_strain = 0.0;        ///< 1 - H/H0, H0 at the start of shear (0 before); paper section 2.3
-    double volumetric_strain = 0.0;   ///< 1 - V/V0, positive in compression
-    double height = 0.0;              ///< platen distance H (m)
-    double volume = 0.0;              ///< enclosed volume V (m^3)
-    double sigma_1 = 0.0;             ///< mean platen stress (Pa)
-    double sigma_3 = 0.0;             ///< mean membrane stress (Pa)
-    double p = 0.0;                   ///< (sigma_1 + 2 sigma_3) / 3 (Pa)
-    double q = 0.0;                   ///< sigma_1 - sigma_3 (Pa)
-    double sigma_1_love_weber = 0.0;  ///< axial stress from contacts (Pa)
-    double sigma_3_love_weber = 0.0;  ///< mean radial stress from contacts (Pa)
-    double void_ratio = 0.0;          ///< (V - V_s) / V_s with V_s the pebble volume
-    double porosity = 0.0;            ///< 1 - V_s / V
-    double phi_mob_deg = 0.0;         ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
-    double inertial_number = 0.0;     ///< paper Eq. 2
-    double unbalanced_ratio = 0.0;    ///< max |F_unbalanced| / mean sum |F_contact|
-    double confining_error = 0.0;     ///< |sum F - sigma_3 sum A| / (sigma_3 sum A), mean since the last sample
-    double max_overlap_over_r = 0.0;  ///< largest contact overlap over the smaller pebble radius
-    double kappa = 0.0;               ///< k_n / (p d)
-    double coordination = 0.0;        ///< touching neighbours per body (grains and boundary facets not counted)
-    std::int64_t replaced = 0;        ///< clumps replaced by bonded clusters so far
-    std::int64_t broken_tension = 0;  ///< bonds broken in tension so far
-    std::int64_t broken_shear = 0;    ///< bonds broken in shear so far
-    std::int64_t escaped = 0;         ///< grains outside the boundary (a run stops at the first)
-    double kinetic_energy = 0.0;      ///< (J)
-    double elastic_energy = 0.0;      ///< contacts, facets and bonds (J)
-    double boundary_work = 0.0;       ///< work done on the specimen by platens and membrane so far (J)
+    double time = 0.0;                 ///< model time (s)
+    std::string stage;                 ///< name of the running stage
+    double axial_strain = 0.0;         ///< 1 - H/H0, H0 at the start of shear (0 before); paper section 2.3
+    double volumetric_strain = 0.0;    ///< 1 - V/V0, positive in compression
+    double height = 0.0;               ///< platen distance H (m)
+    double volume = 0.0;               ///< enclosed volume V (m^3)
+    double sigma_1 = 0.0;              ///< mean platen stress (Pa)
+    double sigma_3 = 0.0;              ///< mean membrane stress (Pa)
+    double p = 0.0;                    ///< (sigma_1 + 2 sigma_3) / 3 (Pa)
+    double q = 0.0;                    ///< sigma_1 - sigma_3 (Pa)
+    double sigma_1_love_weber = 0.0;   ///< axial stress from contacts (Pa)
+    double sigma_3_love_weber = 0.0;   ///< mean radial stress from contacts (Pa)
+    double void_ratio = 0.0;           ///< (V - V_s) / V_s with V_s the pebble volume
+    double porosity = 0.0;             ///< 1 - V_s / V
+    double phi_mob_deg = 0.0;          ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
+    double inertial_number = 0.0;      ///< paper Eq. 2
+    double unbalanced_ratio = 0.0;     ///< max |F_unbalanced| / mean sum |F_contact|
+    double confining_error = 0.0;      ///< |sum F - sigma_3 sum A| / (sigma_3 sum A), mean since the last sample
+    double max_overlap_over_r = 0.0;   ///< largest contact overlap over the smaller pebble radius
+    double kappa = 0.0;                ///< k_n / (p d)
+    double coordination = 0.0;         ///< touching neighbours per body (grains and boundary facets not counted)
+    std::int64_t replaced = 0;         ///< clumps replaced by bonded clusters so far
+    std::int64_t broken_tension = 0;   ///< bonds broken in tension so far
+    std::int64_t broken_shear = 0;     ///< bonds broken in shear so far
+    std::int64_t escaped = 0;          ///< grains outside the boundary (a run stops at the first)
+    double kinetic_energy = 0.0;       ///< (J)
+    double elastic_energy = 0.0;       ///< contacts, facets and bonds (J)
+    double boundary_work = 0.0;        ///< work done on the specimen by platens and membrane so far (J)
     double friction_dissipation = 0.0; ///< (J)
     double damping_dissipation = 0.0;  ///< (J)
     double bond_dissipation = 0.0;     ///< energy released by broken bonds and at replacement (J)
@@ -57,15 +57,15 @@ struct fracture_event {
     double time = 0.0;         ///< (s)
     double axial_strain = 0.0; ///< at the event
     break_mode mode = break_mode::tension;
-    vec3 position;             ///< bond point (m), kept where it happened (paper Fig. 8)
-    vec3 normal;               ///< unit normal of the bond
-    std::int32_t mother = -1;  ///< grain id of the broken mother
-    std::int32_t bond = -1;    ///< bond index in the mother's shape
-    double normal_force = 0.0; ///< tension positive (N)
-    double shear_force = 0.0;  ///< |V| (N)
-    double bending_moment = 0.0; ///< (N m)
+    vec3 position;                ///< bond point (m), kept where it happened (paper Fig. 8)
+    vec3 normal;                  ///< unit normal of the bond
+    std::int32_t mother = -1;     ///< grain id of the broken mother
+    std::int32_t bond = -1;       ///< bond index in the mother's shape
+    double normal_force = 0.0;    ///< tension positive (N)
+    double shear_force = 0.0;     ///< |V| (N)
+    double bending_moment = 0.0;  ///< (N m)
     double twisting_moment = 0.0; ///< (N m)
-    double energy = 0.0;       ///< strain energy released (J)
+    double energy = 0.0;          ///< strain energy released (J)
 };
 
 enum class pebble_state : std::uint8_t { clump, bonded, fragment }; ///< fragment: has lost at least one bond
@@ -77,8 +77,8 @@ struct pebble_view {
     std::int32_t grain = -1;    ///< mother grain id
     std::int32_t fragment = -1; ///< id of the connected component of unbroken bonds (= smallest pebble id in it)
     pebble_state state = pebble_state::clump;
-    vec3 displacement;          ///< since the start of shear (m)
-    vec3 velocity;              ///< (m/s)
+    vec3 displacement; ///< since the start of shear (m)
+    vec3 velocity;     ///< (m/s)
 };
 
 /// One active facet of a boundary as a quadrilateral.

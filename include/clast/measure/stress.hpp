@@ -18,8 +18,7 @@ namespace clast::measure {
 /// Calls f(force, branch, point) for every force that one body passes on to another or to a facet: force (N) on the
 /// second partner, branch (m) from the first centre to the second centre (or to the point on the facet). Bonds of
 /// clusters are such forces, too.
-template <class Engine, class F>
-void each_branch(const Engine& e, F&& f) {
+template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
     const auto centre = [&](std::size_t pebble) { // of its body
@@ -59,16 +58,14 @@ void each_branch(const Engine& e, F&& f) {
 }
 
 /// Love-Weber stress (Pa, compression positive) over a volume (m^3): (1/V) sum f (x) l over all branches.
-template <class Engine>
-mat3 love_weber(const Engine& e, double volume) {
+template <class Engine> mat3 love_weber(const Engine& e, double volume) {
     mat3 sum;
     each_branch(e, [&](const vec3& force, const vec3& branch, const vec3&) { sum += outer(force, branch); });
     return (1.0 / volume) * sum;
 }
 
 /// Mean stress p' (Pa) in a measurement sphere: the branches whose contact point lies inside.
-template <class Engine>
-double mean_stress_in_sphere(const Engine& e, const vec3& centre, double radius) {
+template <class Engine> double mean_stress_in_sphere(const Engine& e, const vec3& centre, double radius) {
     double sum = 0.0;
     each_branch(e, [&](const vec3& force, const vec3& branch, const vec3& point) {
         if (norm2(point - centre) < radius * radius) sum += dot(force, branch);
@@ -88,8 +85,7 @@ struct contact_state {
 };
 
 /// Bodies here are clumps and fragments (bonded balls count as one).
-template <class Engine>
-contact_state contacts_of(const Engine& e) {
+template <class Engine> contact_state contacts_of(const Engine& e) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
     const auto piece = [&](std::int32_t pebble) {

@@ -27,22 +27,26 @@ struct cylinder {
 /// circumscribed spheres overlapping (random sequential addition; paper section 2.3, Fig. 2). Grains are numbered along
 /// z, then by angle, so that neighbours in space are neighbours in memory. The same seed gives the same cloud.
 /// Throws input_error if the cylinder cannot take that many (possible up to about 30 % of sphere volume).
-inline void add_cloud(specimen& s, std::int32_t shape_index, std::size_t count, const cylinder& room, std::uint64_t seed) {
+inline void add_cloud(specimen& s, std::int32_t shape_index, std::size_t count, const cylinder& room,
+                      std::uint64_t seed) {
     const shape& grain_shape = s.shapes[static_cast<std::size_t>(shape_index)];
     const double rc = grain_shape.circumscribed_radius, apart = 2.0 * rc;
     const double free_radius = room.radius - rc, low = room.bottom + rc, high = room.top - rc;
     const auto too_dense = [&](std::size_t placed) {
         return input_error("number of grains", fmt::format("{}", count),
-                           fmt::format("about {} in a cloud of radius {:.3g} m and height {:.3g} m", placed, room.radius,
-                                       room.top - room.bottom),
+                           fmt::format("about {} in a cloud of radius {:.3g} m and height {:.3g} m", placed,
+                                       room.radius, room.top - room.bottom),
                            "Make the vessel larger or the specimen of fewer grains.");
     };
     if (free_radius <= 0.0 || high <= low) throw too_dense(0);
     // cells of one diameter: a candidate looks at the 27 around it
-    const auto cells = [&](double length) { return std::max<std::int64_t>(1, static_cast<std::int64_t>(length / apart)); };
+    const auto cells = [&](double length) {
+        return std::max<std::int64_t>(1, static_cast<std::int64_t>(length / apart));
+    };
     const std::int64_t nx = cells(2.0 * free_radius), nz = cells(high - low);
     const auto cell = [](double x, double from, double length, std::int64_t n) {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>((x - from) / length * static_cast<double>(n)), 0, n - 1);
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>((x - from) / length * static_cast<double>(n)), 0,
+                                        n - 1);
     };
     std::vector<std::vector<vec3>> grid(static_cast<std::size_t>(nx * nx * nz));
     const auto bucket = [&](std::int64_t i, std::int64_t j, std::int64_t k) -> std::vector<vec3>& {

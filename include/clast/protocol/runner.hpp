@@ -29,8 +29,8 @@ namespace clast {
 class observer {
   public:
     virtual ~observer() = default;
-    virtual void on_row(const sample&) {}                           ///< one row of the series
-    virtual void on_events(const std::vector<fracture_event>&) {}   ///< bonds broken since the last call
+    virtual void on_row(const sample&) {}                         ///< one row of the series
+    virtual void on_events(const std::vector<fracture_event>&) {} ///< bonds broken since the last call
     virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
     virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
     /// Between two steps, with all events reported: the place to save a checkpoint.
@@ -41,22 +41,21 @@ class observer {
 /// Sizes and rates of a test. SI units.
 struct test_plan {
     std::vector<stage> stages;
-    double radius = 0.0;          ///< target apothem of the specimen (m)
-    double height = 0.0;          ///< target height (m)
-    double grain_diameter = 0.02; ///< d50 of Eq. 2 (m)
-    double confining = 2e6;       ///< scale of stresses: target of the consolidation (Pa)
-    double inertial_number = 1e-4; ///< largest during loading (paper: 1e-4)
+    double radius = 0.0;                   ///< target apothem of the specimen (m)
+    double height = 0.0;                   ///< target height (m)
+    double grain_diameter = 0.02;          ///< d50 of Eq. 2 (m)
+    double confining = 2e6;                ///< scale of stresses: target of the consolidation (Pa)
+    double inertial_number = 1e-4;         ///< largest during loading (paper: 1e-4)
     double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
     double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
     double servo_gain = 0.5;
-    double row_strain = 5e-4;     ///< axial strain between rows while strain is the clock
+    double row_strain = 5e-4;      ///< axial strain between rows while strain is the clock
     std::int64_t row_steps = 2000; ///< steps between rows otherwise, and at most in any stage (x 10)
     std::int64_t look_every = 100; ///< steps between looks at conditions, escapes and requests to stop
 };
 
 /// Runs the stages of a plan on an engine. State is complete and archived: saving, or not, changes no bit.
-template <triaxial_policies P>
-class runner {
+template <triaxial_policies P> class runner {
   public:
     using engine_type = engine<P>;
     using boundary_type = typename P::boundary;
@@ -99,7 +98,8 @@ class runner {
             check_specimen();
             const bool ended = current().end.met(view_);
             const double part = current().end.progress(view_);
-            watch.on_progress(measure(), part, (static_cast<double>(stage_) + part) / static_cast<double>(plan.stages.size()));
+            watch.on_progress(measure(), part,
+                              (static_cast<double>(stage_) + part) / static_cast<double>(plan.stages.size()));
             if (ended)
                 end_stage(watch, true);
             else
@@ -138,9 +138,9 @@ class runner {
         s.porosity = 1.0 - solid_volume_ / s.volume;
         const double sum = s.sigma_1 + s.sigma_3;
         s.phi_mob_deg = sum > 0.0 ? std::asin(std::clamp(s.q / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
-        s.inertial_number = s.p > 0.0 ? std::abs(closing_speed()) / s.height * plan.grain_diameter /
-                                            std::sqrt(s.p / sim.grains.density)
-                                      : 0.0;
+        s.inertial_number =
+            s.p > 0.0 ? std::abs(closing_speed()) / s.height * plan.grain_diameter / std::sqrt(s.p / sim.grains.density)
+                      : 0.0;
         const measure::contact_state c = measure::contacts_of(sim);
         s.unbalanced_ratio = c.unbalanced_ratio;
         s.max_overlap_over_r = c.max_overlap_over_r;
@@ -159,8 +159,8 @@ class runner {
         s.friction_dissipation = lost.friction;
         s.damping_dissipation = lost.damping;
         s.bond_dissipation = t.bond_dissipation;
-        const double residual = t.boundary_work + t.initial_energy - s.kinetic_energy - s.elastic_energy - lost.friction -
-                                lost.damping - t.bond_dissipation;
+        const double residual = t.boundary_work + t.initial_energy - s.kinetic_energy - s.elastic_energy -
+                                lost.friction - lost.damping - t.bond_dissipation;
         // of the energy that went through the specimen in this stage: work, or what was lost where no wall works
         const double lost_here = lost.friction + lost.damping - stage_losses_;
         const double work = std::max(std::abs(t.boundary_work - stage_work_), lost_here);
@@ -200,12 +200,11 @@ class runner {
     }
     std::vector<facet_view> facets() const { return sim.boundary.view(sim.loads()); }
 
-    template <class A>
-    void archive(A& a) {
+    template <class A> void archive(A& a) {
         sim.archive(a);
-        a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_, friction_try_,
-          reference_height_, reference_volume_, reference_, start_size_, strain_rate_, error_sum_, error_count_, next_row_,
-          row_start_, wall_time_, smoothed_p_);
+        a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
+          friction_try_, reference_height_, reference_volume_, reference_, start_size_, strain_rate_, error_sum_,
+          error_count_, next_row_, row_start_, wall_time_, smoothed_p_);
     }
 
   private:
@@ -281,14 +280,14 @@ class runner {
         }
         if (!out_of_steps) return;
         const sample now = measure();
-        throw run_error({fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
-                         fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps),
-                         when(),
-                         fmt::format("unbalanced ratio {:.3g}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa), stress "
-                                     "errors {:.3g} (axial) and {:.3g} (confining)",
-                                     now.unbalanced_ratio, 1e-3 * now.q, 1e-3 * now.p, 1e-3 * view_.sphere_stress,
-                                     view_.axial_error, view_.confining_error),
-                         s.if_stuck});
+        throw run_error(
+            {fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
+             fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps), when(),
+             fmt::format("unbalanced ratio {:.3g}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa), stress "
+                         "errors {:.3g} (axial) and {:.3g} (confining)",
+                         now.unbalanced_ratio, 1e-3 * now.q, 1e-3 * now.p, 1e-3 * view_.sphere_stress,
+                         view_.axial_error, view_.confining_error),
+             s.if_stuck});
     }
 
     std::string when() const {
@@ -321,7 +320,8 @@ class runner {
             view_.sphere_stress = std::max(
                 view_.sphere_stress,
                 std::abs(measure::mean_stress_in_sphere(sim, {0, 0, b.bottom() + z * h}, std::min(r, h / 6.0))));
-        view_.axial_error = s.axial.how == axis_drive::kind::stress ? std::abs(sigma_1 - s.axial.value) / s.axial.value : 0.0;
+        view_.axial_error =
+            s.axial.how == axis_drive::kind::stress ? std::abs(sigma_1 - s.axial.value) / s.axial.value : 0.0;
         view_.confining_error =
             s.lateral.how == axis_drive::kind::stress ? b.confining_error(sim.loads(), s.lateral.value) : 0.0;
         view_.travel_left = 0.0;
@@ -342,10 +342,9 @@ class runner {
         using mode = boundaries::drive::mode;
         const stage& s = current();
         const double shear_rate = rate_at(plan.inertial_number, plan.confining);
-        const double packing_rate =
-            coordination < 1.0 ? plan.packing_rate_before_contact * shear_rate
-                               : std::min(plan.packing_rate_before_contact * shear_rate,
-                                          rate_at(plan.packing_inertial_number, smoothed_p_));
+        const double packing_rate = coordination < 1.0 ? plan.packing_rate_before_contact * shear_rate
+                                                       : std::min(plan.packing_rate_before_contact * shear_rate,
+                                                                  rate_at(plan.packing_inertial_number, smoothed_p_));
         const double servo_speed = 3.0 * shear_rate * plan.radius;
         const double look_time = static_cast<double>(plan.look_every) * sim.dt();
         const auto one = [&](const axis_drive& a, double size, double share, double start) {
@@ -353,13 +352,18 @@ class runner {
             d.gain = plan.servo_gain;
             d.max_speed = servo_speed;
             switch (a.how) {
-            case axis_drive::kind::hold: break;
-            case axis_drive::kind::rate: d.how = mode::velocity, d.value = share * a.value * size; break;
+            case axis_drive::kind::hold:
+                break;
+            case axis_drive::kind::rate:
+                d.how = mode::velocity, d.value = share * a.value * size;
+                break;
             case axis_drive::kind::inertial:
                 d.how = mode::velocity;
                 d.value = std::copysign(share * size * rate_at(std::abs(a.value), smoothed_p_), a.value);
                 break;
-            case axis_drive::kind::stress: d.how = mode::servo, d.value = a.value; break;
+            case axis_drive::kind::stress:
+                d.how = mode::servo, d.value = a.value;
+                break;
             case axis_drive::kind::reach: {
                 const double way = size - a.value;
                 if (way <= 1e-9 * start) break;
@@ -416,14 +420,15 @@ class runner {
             if (clump && static_cast<std::int32_t>(p) != s.grains[owner].first) continue;
             if (!sim.boundary.outside(s.motion[owner].x, s.radius[p])) continue;
             const vec3 x = s.motion[owner].x;
-            throw run_error({fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
-                             fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
-                             when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
-                             "use more rings or tiles, a lower stress or a smaller inertial number"});
+            throw run_error(
+                {fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
+                 fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
+                 when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
+                 "use more rings or tiles, a lower stress or a smaller inertial number"});
         }
         if (deepest_.max_overlap_over_r >= 1.0)
-            throw run_error({fmt::format("pebbles {} and {} overlap by {:.2f} of the smaller radius", deepest_.deepest_i,
-                                         deepest_.deepest_j, deepest_.max_overlap_over_r),
+            throw run_error({fmt::format("pebbles {} and {} overlap by {:.2f} of the smaller radius",
+                                         deepest_.deepest_i, deepest_.deepest_j, deepest_.max_overlap_over_r),
                              fmt::format("stage '{}'", current().name), when(),
                              "contacts are soft against the stress: two centres are about to pass each other",
                              "lower the stress or raise the contact stiffness"});

@@ -63,14 +63,12 @@ struct condition {
 
 /// Both; progress of the slower.
 inline condition operator&&(condition a, condition b) {
-    return {a.text + " and " + b.text,
-            [a, b](const stage_view& v) { return a.met(v) && b.met(v); },
+    return {a.text + " and " + b.text, [a, b](const stage_view& v) { return a.met(v) && b.met(v); },
             [a, b](const stage_view& v) { return std::min(a.progress(v), b.progress(v)); }};
 }
 /// Either; progress of the faster.
 inline condition operator||(condition a, condition b) {
-    return {a.text + " or " + b.text,
-            [a, b](const stage_view& v) { return a.met(v) || b.met(v); },
+    return {a.text + " or " + b.text, [a, b](const stage_view& v) { return a.met(v) || b.met(v); },
             [a, b](const stage_view& v) { return std::max(a.progress(v), b.progress(v)); }};
 }
 
@@ -147,7 +145,7 @@ struct stage {
     double friction = -1.0;              ///< pebble friction in this stage; negative: that of the material
     /// Frictions to try one after the other where the specimen has come to rest short of `end`.
     std::vector<double> then_friction{};
-    bool give_up_gently = false; ///< having tried all, go on with the next stage instead of stopping
+    bool give_up_gently = false;  ///< having tried all, go on with the next stage instead of stopping
     bool skip_if_relaxed = false; ///< leave out where the stage before reached its end by itself
     std::string if_stuck = "Raise `most_steps`, or loosen the condition."; ///< advice where it does not end
 };

@@ -41,8 +41,7 @@ struct table_1 {
 
 /// Contacts of a law that Table 1 knows nothing of, given one by one. Walls are frictionless: at them the law sees no
 /// tangential motion and no history. Its normal stiffness under a small overlap must be positive, for the servo.
-template <contacts::contact_law L>
-struct contacts_of_law {
+template <contacts::contact_law L> struct contacts_of_law {
     L grain;                 ///< pebble against pebble
     L platen;                ///< pebble against platen
     L membrane;              ///< pebble against the lateral wall
@@ -58,33 +57,32 @@ template <contacts::contact_law L>
 using materials_of = std::conditional_t<std::same_as<L, contacts::linear>, table_1, contacts_of_law<L>>;
 
 /// What a triaxial test is made of. Members without a default must be given, or the program does not compile.
-template <triaxial_policies P>
-struct triaxial_setup {
-    shape grain;                             ///< template of all grains
-    quantities::length diameter;             ///< of the specimen: of the circle that the membrane's polygon circumscribes
-    quantities::length height;               ///< of the specimen as packed
-    quantities::stress confining;            ///< sigma_3 of consolidation and shear
-    typename P::breakage breakage;           ///< criterion, {} for criteria::none
-    typename P::replacement replacement;     ///< {} for replacements::none
-    double porosity = 0.58;                  ///< as packed, counted with pebble volumes (paper section 2.3)
-    int rings = 36;                          ///< V_sec; solid strips ignore it
-    int tiles_per_ring = 20;                 ///< H_part
+template <triaxial_policies P> struct triaxial_setup {
+    shape grain;                         ///< template of all grains
+    quantities::length diameter;         ///< of the specimen: of the circle that the membrane's polygon circumscribes
+    quantities::length height;           ///< of the specimen as packed
+    quantities::stress confining;        ///< sigma_3 of consolidation and shear
+    typename P::breakage breakage;       ///< criterion, {} for criteria::none
+    typename P::replacement replacement; ///< {} for replacements::none
+    double porosity = 0.58;              ///< as packed, counted with pebble volumes (paper section 2.3)
+    int rings = 36;                      ///< V_sec; solid strips ignore it
+    int tiles_per_ring = 20;             ///< H_part
     materials_of<typename P::contact> materials{}; ///< table_1, or contacts_of_law for a law of one's own
-    double inertial_number = 1e-4;           ///< largest in shear (paper section 2.2)
-    double damping = 0.7;                    ///< local damping
-    double safety = 0.8;                     ///< of the time-step estimate
-    double vessel = 1.8;                     ///< size of the cloud's vessel over that of the specimen
+    double inertial_number = 1e-4;                 ///< largest in shear (paper section 2.2)
+    double damping = 0.7;                          ///< local damping
+    double safety = 0.8;                           ///< of the time-step estimate
+    double vessel = 1.8;                           ///< size of the cloud's vessel over that of the specimen
     std::uint64_t seed = 1;
-    int threads = 1;                         ///< never changes a result
-    std::int64_t rows = 500;                 ///< rows of the series over 25 % of strain
+    int threads = 1;         ///< never changes a result
+    std::int64_t rows = 500; ///< rows of the series over 25 % of strain
 };
 
 /// Stages of the paper's protocol (section 2.3), as data. Take them, change them, or write your own.
 namespace protocol {
 
 /// Cloud to specimen: compaction by moving walls and grains, then relaxation at fixed walls until the unbalanced ratio
-/// is below 0.1 % and p' below 1 kPa in three spheres. A specimen that stays loaded tries lower frictions, and as a last
-/// resort servo control to 1 kPa.
+/// is below 0.1 % and p' below 1 kPa in three spheres. A specimen that stays loaded tries lower frictions, and as a
+/// last resort servo control to 1 kPa.
 inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
     using namespace literals;
     std::vector<stage> s;
@@ -154,8 +152,7 @@ inline std::vector<stage> triaxial_compression(quantities::length diameter, quan
 } // namespace protocol
 
 /// Specimen, boundary, engine and runner of one test, ready to run.
-template <triaxial_policies P>
-class triaxial_test {
+template <triaxial_policies P> class triaxial_test {
   public:
     using boundary_type = typename P::boundary;
     using runner_type = runner<P>;
@@ -163,13 +160,14 @@ class triaxial_test {
     /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...).
     triaxial_test(triaxial_setup<P> setup, std::vector<stage> stages)
         : setup_(check(std::move(setup))), sim_(make_engine(setup_)),
-          run_(sim_, make_plan(setup_, std::move(stages)), [s = membrane_settings(setup_)](const boundary_type& vessel) {
-              boundaries::cylinder_settings m = s;
-              m.radius = vessel.apothem(boundaries::first_lateral_facet);
-              m.bottom = vessel.bottom();
-              m.top = vessel.top();
-              return boundary_type(m);
-          }) {}
+          run_(sim_, make_plan(setup_, std::move(stages)),
+               [s = membrane_settings(setup_)](const boundary_type& vessel) {
+                   boundaries::cylinder_settings m = s;
+                   m.radius = vessel.apothem(boundaries::first_lateral_facet);
+                   m.bottom = vessel.bottom();
+                   m.top = vessel.top();
+                   return boundary_type(m);
+               }) {}
     triaxial_test(const triaxial_test&) = delete;
     triaxial_test& operator=(const triaxial_test&) = delete;
 
@@ -182,10 +180,7 @@ class triaxial_test {
     runner_type& protocol() { return run_; }
     const runner_type& protocol() const { return run_; }
 
-    template <class A>
-    void archive(A& a) {
-        run_.archive(a);
-    }
+    template <class A> void archive(A& a) { run_.archive(a); }
 
   private:
     static triaxial_setup<P> check(triaxial_setup<P> s) {
@@ -196,8 +191,10 @@ class triaxial_test {
         demand(!s.grain.pebbles.empty(), "grain", 0, "a shape with pebbles", "Take shapes::tetrahedron_4(0.02).");
         demand(s.porosity > 0.2 && s.porosity < 0.95, "porosity", s.porosity, "0.2 to 0.95", "The paper uses 0.58.");
         // toys; results that mean something need 10 grains and more across
-        demand(d >= 2.2 * s.grain.diameter, "diameter (m)", d, "at least 2.2 grain diameters", "Make the specimen larger.");
-        demand(h >= 2.2 * s.grain.diameter, "height (m)", h, "at least 2.2 grain diameters", "Make the specimen larger.");
+        demand(d >= 2.2 * s.grain.diameter, "diameter (m)", d, "at least 2.2 grain diameters",
+               "Make the specimen larger.");
+        demand(h >= 2.2 * s.grain.diameter, "height (m)", h, "at least 2.2 grain diameters",
+               "Make the specimen larger.");
         demand(s.confining.si() > 0.0, "confining (Pa)", s.confining.si(), "> 0", "The paper uses 1.5 and 2 MPa.");
         demand(s.tiles_per_ring >= 6, "tiles_per_ring", s.tiles_per_ring, ">= 6", "The paper uses 20.");
         demand(s.damping >= 0.0 && s.damping < 1.0, "damping", s.damping, "0 to below 1", "0.7 is the default.");

@@ -18,14 +18,14 @@ enum class birth : std::uint8_t {
 };
 
 /// MPRM of the paper (section 2.1, Fig. 2): at `trigger` of its strength a clump is replaced by balls of identical size
-/// in the same place, joined by parallel bonds. Positions, velocities, contact forces and their histories carry over, so
-/// mass, momentum and kinetic energy are continuous.
+/// in the same place, joined by parallel bonds. Positions, velocities, contact forces and their histories carry over,
+/// so mass, momentum and kinetic energy are continuous.
 struct modified {
     static constexpr bool makes_bonds = true;
 
-    bonds::parallel bond;              ///< material of the bonds
-    double trigger = 0.9;              ///< utilisation at which a clump is replaced, > 0 (paper: 90 %)
-    int check_interval = 10;           ///< steps between looks at the criterion, >= 1
+    bonds::parallel bond;    ///< material of the bonds
+    double trigger = 0.9;    ///< utilisation at which a clump is replaced, > 0 (paper: 90 %)
+    int check_interval = 10; ///< steps between looks at the criterion, >= 1
     birth how = birth::warm_start;
 
     /// Bond states (world axes) for a cluster under these loads on its pebbles, with orientation q and spin w (rad/s).
