@@ -997,11 +997,7 @@ template <triaxial_policies P> class engine {
                 wall_row& w = (*wall)[k];
                 w.touch = boundary.touch(grains.position[at(w.pebble)], grains.radius[at(w.pebble)]);
             });
-        const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
-        const double k_typical =
-            (settings.grain_contact.normal_stiffness(typical) + 2.0 * settings.grain_contact.shear_stiffness(typical)) /
-            3.0;
-        double limit = settings.safety * std::sqrt(smallest_mass_ / (3.0 * k_typical));
+        double limit = typical_limit(smallest_mass_);
         limit = -settings.run.max(grains.grain_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
             if (!grains.is_clump(g)) return -std::numeric_limits<double>::infinity();
             const grain& one = grains.grains[g];
@@ -1015,6 +1011,16 @@ template <triaxial_policies P> class engine {
         dt_ = first ? limit : std::min(limit, 1.02 * dt_);
         if constexpr (breakable) estimate_substeps();
         estimate_due_ = false;
+    }
+
+    /// Step (s) that three typical contacts would allow a body of this mass (kg): an upper bound, because contacts come and
+    /// go between two estimates.
+    double typical_limit(double mass) const {
+        const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
+        const double k = (settings.grain_contact.normal_stiffness(typical) +
+                          2.0 * settings.grain_contact.shear_stiffness(typical)) /
+                         3.0;
+        return settings.safety * std::sqrt(mass / (3.0 * k));
     }
 
     void add_stiffness(stiffness_sum& k, const incidence& of, std::size_t body, const contact_list<history>& list,
@@ -1087,7 +1093,8 @@ template <triaxial_policies P> class engine {
                 tensor += (grains.ball_inertia(p) + m * norm2(arm)) * mat3::identity() + (-m) * outer(arm, arm);
                 add_stiffness(k, fast_of_, ball(broken_.balls[a]), fast_, fast_wall_, centre);
             }
-            return k.time_step(mass, {tensor(0, 0), tensor(1, 1), tensor(2, 2)}, settings.safety);
+            return std::min(typical_limit(mass),
+                            k.time_step(mass, {tensor(0, 0), tensor(1, 1), tensor(2, 2)}, settings.safety));
         }
         return dt_;
     }

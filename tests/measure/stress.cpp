@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <clast/measure/stress.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <catch.hpp>
+
+#include "engine/scenes.hpp"
+
+using namespace clast;
+
+namespace {
+
+using rigid = scenes::unbreakable<>;
+constexpr double r = 0.01;
+
+/// Spheres in a column between platens that overlap their neighbours and the platens by `depth`.
+engine<rigid> column(std::size_t count, double depth) {
+    specimen sp = scenes::empty(shapes::sphere(2.0 * r));
+    for (std::size_t k = 0; k < count; ++k)
+        sp.add(0, {0, 0, (2.0 * r - depth) * (static_cast<double>(k) - 0.5 * static_cast<double>(count - 1))}, {});
+    const double height = 2.0 * r + (2.0 * r - depth) * static_cast<double>(count - 1) - 2.0 * depth;
+    auto s = scenes::settings<rigid>();
+    s.platen_contact = s.grain_contact; // one stiffness: one force all along the column
+    engine<rigid> e(s, std::move(sp), boundaries::solid_strips(scenes::cylinder(0.03, height, r)));
+    e.step();
+    return e;
+}
+
+} // namespace
+
+TEST_CASE("Love-Weber stress of a column of spheres is force times length over volume") {
+    const double depth = 1e-5;
+    for (const std::size_t count : {2u, 3u, 5u}) {
+        const engine<rigid> e = column(count, depth);
+        const double force = 2.9e6 * depth, volume = e.boundary.volume();
+        CHECK(e.loads()[boundaries::top_platen].force == Approx(force).epsilon(1e-9));
+        const mat3 s = measure::love_weber(e, volume);
+        // branches end at the surface of the sphere, a depth behind the platen
+        const double length = e.boundary.height() + 2.0 * depth;
+        CHECK(s(2, 2) == Approx(force * length / volume).epsilon(1e-9));
+        CHECK(s(2, 2) == Approx(e.boundary.axial_stress(e.loads())).epsilon(3.0 * depth / e.boundary.height()));
+        CHECK(std::abs(s(0, 0)) + std::abs(s(1, 1)) + std::abs(s(0, 2)) < 1e-9 * s(2, 2));
+    }
+}
+
+TEST_CASE("the mean stress in a sphere counts the branches whose contact lies inside") {
+    const double depth = 1e-5, force = 2.9e6 * depth;
+    const engine<rigid> e = column(3, depth); // contacts at about -r, r and at both platens
+    const double inner = 1.5 * r, volume = 4.0 / 3.0 * std::numbers::pi * inner * inner * inner;
+    CHECK(measure::mean_stress_in_sphere(e, {}, inner) ==
+          Approx(2.0 * force * (2.0 * r - depth) / (3.0 * volume)).epsilon(1e-9));
+    CHECK(measure::mean_stress_in_sphere(e, {}, 0.5 * r) == 0.0);
+}
+
+TEST_CASE("contacts of a column: coordination, overlap, mean force and rest") {
+    const double depth = 1e-5, force = 2.9e6 * depth;
+    const measure::contact_state c = measure::contacts_of(column(4, depth));
+    CHECK(c.contacts == 3);
+    CHECK(c.coordination == 1.5); // 3 pairs of 4 bodies
+    CHECK(c.mean_contact_force == Approx(force).epsilon(1e-9));
+    CHECK(c.max_overlap_over_r == Approx(depth / r).epsilon(1e-9));
+    CHECK(c.unbalanced_ratio < 1e-9);
+    const measure::contact_state open = measure::contacts_of(column(2, -1e-5));
+    CHECK(open.contacts == 0);
+    CHECK(open.coordination == 0.0);
+    CHECK(open.unbalanced_ratio == 0.0);
+}
+
+TEST_CASE("a body that no other balances shows in the unbalanced ratio") {
+    specimen sp = scenes::empty(shapes::sphere(2.0 * r));
+    sp.add(0, {0, 0, -0.5 * r}, {});
+    sp.add(0, {0, 0, 1.5 * r - 1e-5}, {}); // pushed up by the other, held by nothing
+    auto s = scenes::settings<rigid>();
+    s.platen_contact = s.grain_contact;
+    engine<rigid> e(s, std::move(sp), boundaries::solid_strips(scenes::cylinder(0.03, 0.2, r)));
+    e.step();
+    const measure::contact_state c = measure::contacts_of(e);
+    CHECK(c.unbalanced_ratio == Approx(1.0).epsilon(1e-9)); // force over mean sum of forces: F / F
+    CHECK(c.deepest_i == 0);
+    CHECK(c.deepest_j == 1);
+}
+
+TEST_CASE("in a packing at rest under one stress all round, contacts and walls agree") {
+    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 50, 0.07, 2e5, 9000);
+    e.drives = scenes::isotropic(2e5, 0.02);
+    for (int k = 0; k < 3000; ++k) e.step();
+    const mat3 s = measure::love_weber(e, e.boundary.volume());
+    REQUIRE(measure::contacts_of(e).unbalanced_ratio < 1e-3);
+    CHECK(e.boundary.axial_stress(e.loads()) == Approx(2e5).epsilon(1e-3));
+    CHECK(s(2, 2) == Approx(e.boundary.axial_stress(e.loads())).epsilon(5e-3));
+    CHECK(0.5 * (s(0, 0) + s(1, 1)) == Approx(e.boundary.lateral_stress(e.loads())).epsilon(5e-3));
+    CHECK(std::abs(s(0, 1) - s(1, 0)) < 1e-3 * s(2, 2)); // moments balance
+}
+
+TEST_CASE("bonds of a cluster carry the stress that its clump did") {
+    using brittle = scenes::breakable<>;
+    const shape grain = shapes::tetrahedron_4(0.02);
+    specimen sp = scenes::empty(grain);
+    sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
+    double low = 0.0, high = 0.0;
+    for (std::size_t p = 0; p < 4; ++p) {
+        low = std::min(low, sp.position[p].z - sp.radius[p]);
+        high = std::max(high, sp.position[p].z + sp.radius[p]);
+    }
+    boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
+    c.bottom = low + 2e-5, c.top = high - 2e-5;
+    engine<brittle> e(scenes::settings<brittle>(1e15), std::move(sp), boundaries::solid_strips(c));
+    for (int k = 0; k < 3000; ++k) e.step();
+    const mat3 clump = measure::love_weber(e, 1e-4);
+    e.settings.breakage.strength.sigma0 = e.loads()[boundaries::top_platen].force / (0.95 * 0.02 * 0.02);
+    for (int k = 0; k < 100; ++k) e.step();
+    REQUIRE(e.totals().replaced == 1);
+    REQUIRE(e.totals().broken_shear + e.totals().broken_tension == 0);
+    const mat3 cluster = measure::love_weber(e, 1e-4);
+    CHECK(clump(2, 2) > 0.0);
+    CHECK(cluster(2, 2) == Approx(clump(2, 2)).epsilon(2e-3));
+    CHECK(std::abs(cluster(0, 0)) < 2e-3 * clump(2, 2)); // nothing pushes from the side
+    const measure::contact_state state = measure::contacts_of(e);
+    CHECK(state.coordination == 0.0); // a cluster is one body
+    CHECK(state.unbalanced_ratio < 1e-3);
+}
