@@ -34,7 +34,7 @@ class helpers {
     helpers(const helpers&) = delete;
     helpers& operator=(const helpers&) = delete;
 
-    using chunk_function = void (*)(void* context, std::size_t chunk);
+    using chunk_function = void (*)(void* context, std::size_t chunk) noexcept; // a loop cannot be left half-way
 
     void run(std::size_t chunks, chunk_function f, void* context) {
         f_ = f, context_ = context;
@@ -118,7 +118,7 @@ class execution {
             std::size_t n, chunk;
         } l{&body, n, std::max({grain, (n + pieces - 1) / pieces, (n >> 19) + 1})};
         helpers_->run((n + l.chunk - 1) / l.chunk,
-                      [](void* context, std::size_t c) {
+                      [](void* context, std::size_t c) noexcept {
                           const loop& me = *static_cast<const loop*>(context);
                           do_span(*me.body, c * me.chunk, std::min(me.n, (c + 1) * me.chunk));
                       },
