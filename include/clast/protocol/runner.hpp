@@ -203,7 +203,7 @@ template <triaxial_policies P> class runner {
     template <class A> void archive(A& a) {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
-          friction_try_, reference_height_, reference_volume_, reference_, start_size_, strain_rate_, error_sum_,
+          friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_,
           error_count_, next_row_, row_start_, wall_time_, smoothed_p_);
     }
 
@@ -444,7 +444,6 @@ template <triaxial_policies P> class runner {
     double reference_height_ = 0.0, reference_volume_ = 0.0;
     std::vector<vec3> reference_;
     std::array<double, 2> start_size_{};
-    double strain_rate_ = 0.0;
     double error_sum_ = 0.0;
     std::int64_t error_count_ = 0;
     std::int64_t next_row_ = 1;
