@@ -119,7 +119,7 @@ makers = {"packing-10k": lambda name: packing(name, 10000), "packing-100k": lamb
 def main():
     os.makedirs(work, exist_ok=True)
     for name in sys.argv[1:] or makers:
-        if not os.path.exists(os.path.join(work, name + ".txt")):
+        if name in makers and not os.path.exists(os.path.join(work, name + ".txt")):
             makers[name](name)
 
 
