@@ -79,7 +79,7 @@ def rates(parameters):
 def run(command, directory, timeout=3600):
     """Runs a program on one core and returns what it printed."""
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    done = subprocess.run(command, cwd=directory, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=timeout)
+    done = subprocess.run(command, cwd=directory, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout)
     if done.returncode:
         sys.stderr.write(done.stdout[-4000:])
         raise SystemExit("%s failed with code %d" % (command[0], done.returncode))
