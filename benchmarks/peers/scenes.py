@@ -12,20 +12,22 @@ from common import State, here, read_parameters, run, write_state
 work = os.path.join(here, "work")
 
 
-def data_file(path, box, x, r, density, molecule=None, v=None, types=1):
-    """A LAMMPS data file of atom style sphere, with a section of clump numbers if molecule is given, and one of velocities if v is given."""
+def data_file(path, box, x, r, density, molecule=None, v=None, types=1, hybrid=False):
+    """A LAMMPS data file of atom style sphere, with a section of clump numbers if molecule is given, and one of velocities if v is given.
+    hybrid: the clump number stands in the atom line (LIGGGHTS, hybrid granular molecular)."""
     with open(path, "w") as file:
         file.write("made by scenes.py\n\n%d atoms\n%d atom types\n\n" % (len(r), types))
         for k, axis in enumerate("xyz"):
             file.write("%.17g %.17g %slo %shi\n" % (box[0][k], box[1][k], axis, axis))
         file.write("\nAtoms\n\n")
         for i in range(len(r)):
-            file.write("%d 1 %.17g %g %.17g %.17g %.17g\n" % (i + 1, 2 * r[i], density, *x[i]))
+            file.write("%d 1 %.17g %g %.17g %.17g %.17g\n" % (i + 1, 2 * r[i], density, *x[i]) if not hybrid else
+                       "%d 1 %.17g %.17g %.17g %.17g %g %d\n" % (i + 1, *x[i], 2 * r[i], density, molecule[i]))
         if v is not None:
             file.write("\nVelocities\n\n")
             for i in range(len(r)):
                 file.write("%d %.17g %.17g %.17g 0 0 0\n" % (i + 1, *v[i]))
-        if molecule is not None:
+        if molecule is not None and not hybrid:
             file.write("\nMolecules\n\n")
             for i in range(len(r)):
                 file.write("%d %d\n" % (i + 1, molecule[i]))
