@@ -72,6 +72,34 @@ def write_state(path, state):
     os.replace(path + ".part", path)
 
 
+def bonds(state):
+    """Pairs (from 0) of spheres of the same owner that touch: distance of the centres up to 1.001 of the sum of the radii."""
+    found = []
+    starts = numpy.flatnonzero(numpy.diff(state.owner, prepend=0))
+    for first, last in zip(starts, list(starts[1:]) + [len(state.r)]):
+        x, r = state.x[first:last], state.r[first:last]
+        distance = numpy.linalg.norm(x[:, None] - x[None], axis=2)
+        a, b = numpy.nonzero(numpy.triu(distance <= 1.001 * (r[:, None] + r[None]), 1))
+        found += list(zip((first + a).tolist(), (first + b).tolist()))
+    return found
+
+
+def touching_pairs(owner, x, r):
+    """Number of overlapping pairs of spheres of different owners, without periodicity."""
+    cell = 2 * r.max()
+    boxes = {}
+    for i, key in enumerate(map(tuple, numpy.floor(x / cell).astype(int))):
+        boxes.setdefault(key, []).append(i)
+    count = 0
+    for key, inside in boxes.items():
+        near = [j for dx in (-1, 0, 1) for dy in (-1, 0, 1) for dz in (-1, 0, 1) for j in boxes.get((key[0] + dx, key[1] + dy, key[2] + dz), ())]
+        near = numpy.array(near)
+        for i in inside:
+            later = near[(near > i) & (owner[near] != owner[i])]
+            count += int((((x[later] - x[i]) ** 2).sum(1) < (r[later] + r[i]) ** 2).sum())
+    return count
+
+
 def rates(parameters):
     return numpy.array([parameters["rate_" + axis] for axis in "xyz"])
 
