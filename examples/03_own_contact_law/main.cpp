@@ -33,9 +33,6 @@ struct hertz {
         return 2 * modulus * std::sqrt(r * std::max(o.depth, 0.0));
     }
     double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
-    static bool is_resting(const history& h) {
-        return clast::contacts::linear::is_resting(h);
-    } // may be skipped if open
 };
 static_assert(clast::contacts::contact_law<hertz>);
 

@@ -17,7 +17,7 @@ int main() {
     specimen rock;
     rock.shapes.push_back(shapes::tetrahedron_4(0.02));
     rock.add(0, {0, 0, 0}, {});
-    const double r = rock.radius[0], half = rock.position[0].z + r;
+    const double r = rock.pebbles[0].radius, half = rock.pebbles[0].x.z + r;
 
     const contacts::piece pebble{5.8e6, 2.9e6, 0.3}, platen{3.2e8, 1.6e8, 0.0}, wall{3.2e6, 1.6e6, 0.0};
     const contacts::linear at_wall = contacts::linear::between(pebble, wall);

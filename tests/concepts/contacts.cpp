@@ -21,7 +21,6 @@ struct archetype {
     float stored(const contacts::overlap<double>&, const history&) const { return 0.0F; } // converts to double
     double normal_stiffness(const contacts::overlap<double>&) const { return stiffness; }
     double shear_stiffness(const contacts::overlap<double>&) const { return 0.0; }
-    static bool is_resting(const history&) { return true; }
 
   private:
     double stiffness;
@@ -42,7 +41,6 @@ struct without_energy {
     }
     double normal_stiffness(const contacts::overlap<double>&) const { return 1.0; }
     double shear_stiffness(const contacts::overlap<double>&) const { return 0.0; }
-    static bool is_resting(const history&) { return true; }
 };
 
 /// A history that owns memory cannot be copied byte by byte into a checkpoint.
@@ -55,7 +53,6 @@ struct owning : archetype {
         return {};
     }
     double stored(const contacts::overlap<double>&, const history&) const { return 0.0; }
-    static bool is_resting(const history&) { return true; }
 };
 
 static_assert(contacts::contact_law<archetype>);

@@ -57,28 +57,44 @@ TEST_CASE("a list of a law without history goes into an archive as well") {
     CHECK(copy.history.empty());
 }
 
-TEST_CASE("every body is given its rows in the order of the list, with the side that it is on") {
-    const std::vector<pebble_pair> pairs = {{0, 1}, {0, 2}, {1, 2}, {2, 4}};
-    incidence of_body;
-    of_body.build(5, [&](auto&& f) {
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            f(k, 0u, pairs[k].i);
-            f(k, 1u, pairs[k].j);
-        }
-    });
+TEST_CASE("every body is given its rows in the order of the list, with pebble and sign") {
+    contact_list<nothing> list;
+    list.pairs = {{0, 1}, {0, 2}, {1, 2}, {2, 5}};
+    list.resize_rows();
+    struct wall_contact {
+        std::int32_t pebble;
+    };
+    const std::vector<wall_contact> wall = {{5}, {0}};
+    const std::vector<std::int32_t> owner = {0, 1, 2, 3, 4, 4}; // pebbles 4 and 5 are one body
+    incidence of_body(5, list, wall, owner);
+    struct expected {
+        std::size_t row;
+        std::int32_t pebble;
+        double side;
+        bool operator==(const expected&) const = default;
+    };
     const auto rows = [&](std::size_t body) {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-        for (const std::uint32_t r : of_body.of(body)) out.emplace_back(r >> 1, r & 1u);
+        std::vector<expected> out;
+        for (const incidence::entry& e : of_body.of(body)) out.push_back({e.row(), e.pebble, e.side()});
         return out;
     };
-    using expected = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-    CHECK(rows(0) == expected{{0, 0}, {1, 0}});
-    CHECK(rows(1) == expected{{0, 1}, {2, 0}});
-    CHECK(rows(2) == expected{{1, 1}, {2, 1}, {3, 0}});
+    CHECK((rows(0) == std::vector<expected>{{0, 0, 1.0}, {1, 0, 1.0}, {5, 0, 1.0}}));
+    CHECK((rows(1) == std::vector<expected>{{0, 1, -1.0}, {2, 1, 1.0}}));
+    CHECK((rows(2) == std::vector<expected>{{1, 2, -1.0}, {2, 2, -1.0}, {3, 2, 1.0}}));
     CHECK(rows(3).empty());
-    CHECK(rows(4) == expected{{3, 1}});
+    CHECK((rows(4) == std::vector<expected>{{3, 5, -1.0}, {4, 5, 1.0}}));
     incidence copy;
     from_bytes(to_bytes(of_body), copy);
-    CHECK(copy.start == of_body.start);
-    CHECK(copy.row == of_body.row);
+    CHECK(checksum(copy) == checksum(of_body));
+
+    // the list is put in another order: sums keep theirs
+    const std::vector<std::uint32_t> order = {2, 0, 1, 3};
+    list.reorder(order);
+    of_body.renumber(order);
+    CHECK(list.pairs == std::vector<pebble_pair>{{1, 2}, {0, 1}, {0, 2}, {2, 5}});
+    CHECK((rows(0) == std::vector<expected>{{1, 0, 1.0}, {2, 0, 1.0}, {5, 0, 1.0}}));
+    CHECK((rows(2) == std::vector<expected>{{2, 2, -1.0}, {0, 2, -1.0}, {3, 2, 1.0}}));
+    std::vector<std::size_t> visited;
+    list.each_sorted(1, [&](std::size_t k) { visited.push_back(k); });
+    CHECK(visited == std::vector<std::size_t>{1, 2, 0, 3});
 }

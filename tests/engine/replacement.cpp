@@ -45,7 +45,7 @@ total total_of(const engine<brittle>& e) {
         const body_motion& ball = s.motion[s.grain_count() + p];
         t.mass += s.ball_mass(p);
         t.momentum += s.ball_mass(p) * ball.v;
-        t.angular += s.ball_mass(p) * cross(s.position[p], ball.v) + s.ball_inertia(p) * ball.w;
+        t.angular += s.ball_mass(p) * cross(s.pebbles[p].x, ball.v) + s.ball_inertia(p) * ball.w;
     }
     return t;
 }
@@ -78,8 +78,8 @@ engine<brittle> pressed(engine_settings<brittle> s, double force) {
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     double low = 0.0, high = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.position[p].z - sp.radius[p]);
-        high = std::max(high, sp.position[p].z + sp.radius[p]);
+        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
+        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
     }
     boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
     c.bottom = low, c.top = high;
@@ -128,7 +128,7 @@ TEST_CASE("at the swap no momentum, angular momentum, kinetic energy, mass or po
         CHECK(after.energy == Approx(before.energy).epsilon(1e-12));
         CHECK(e.grains.solid_volume() == volume);
         for (std::size_t p = 0; p < e.grains.pebble_count(); ++p)
-            CHECK(norm(e.grains.position[p] - rigid.grains.position[p]) < 1e-15);
+            CHECK(norm(e.grains.pebbles[p].x - rigid.grains.pebbles[p].x) < 1e-15);
         CHECK(e.dt() == rigid.dt());
     }
 }

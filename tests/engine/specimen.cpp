@@ -21,9 +21,9 @@ TEST_CASE("a clump that is added has its pebbles in a row, turned and moved, and
     CHECK(s.is_clump(1));
     for (std::size_t k = 0; k < 4; ++k) {
         const shape_pebble& p = s.shapes[0].pebbles[k];
-        CHECK(norm(s.position[1 + k] - vec3{0.1, -0.2, 0.3}) == Approx(norm(p.offset)).epsilon(1e-14));
-        CHECK(norm(rotate_back(q, s.position[1 + k] - vec3{0.1, -0.2, 0.3}) - p.offset) < 1e-16);
-        CHECK(s.radius[1 + k] == p.radius);
+        CHECK(norm(s.pebbles[1 + k].x - vec3{0.1, -0.2, 0.3}) == Approx(norm(p.offset)).epsilon(1e-14));
+        CHECK(norm(rotate_back(q, s.pebbles[1 + k].x - vec3{0.1, -0.2, 0.3}) - p.offset) < 1e-16);
+        CHECK(s.pebbles[1 + k].radius == p.radius);
         CHECK(s.mother[1 + k] == 1);
         CHECK(s.owner[1 + k] == 1);
     }

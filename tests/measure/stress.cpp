@@ -102,8 +102,8 @@ TEST_CASE("bonds of a cluster carry the stress that its clump did") {
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     double low = 0.0, high = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.position[p].z - sp.radius[p]);
-        high = std::max(high, sp.position[p].z + sp.radius[p]);
+        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
+        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
     }
     boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
     c.bottom = low + 2e-5, c.top = high - 2e-5;

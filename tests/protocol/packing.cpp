@@ -32,7 +32,7 @@ TEST_CASE("a cloud has as many grains as asked for, inside, at rest and apart fr
         for (std::size_t h = 0; h < g; ++h) CHECK(norm(c - s.motion[h].x) > 0.02);
     }
     for (std::size_t p = 0; p < s.pebble_count(); ++p)
-        CHECK(std::hypot(s.position[p].x, s.position[p].y) + s.radius[p] <= room.radius);
+        CHECK(std::hypot(s.pebbles[p].x.x, s.pebbles[p].x.y) + s.pebbles[p].radius <= room.radius);
 }
 
 TEST_CASE("the seed makes the cloud: the same one the same, another one another") {

@@ -32,8 +32,8 @@ crushed crush(const quaternion& q, double strength, double trigger_force, double
     sp.add(0, {}, q);
     double low = 0.0, high = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.position[p].z - sp.radius[p]);
-        high = std::max(high, sp.position[p].z + sp.radius[p]);
+        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
+        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
     }
     boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
     c.bottom = low, c.top = high;

@@ -28,8 +28,10 @@ template <class T> struct response {
     T dissipated; ///< energy dissipated by the contact in this step (J)
 };
 
-/// A law declares its `history` (trivially copyable; empty if it has none) and answers to geometry and motion.
-/// `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the time-step estimate and the servo.
+/// A law declares its `history` (trivially copyable; empty if it has none) and answers to geometry and motion. It is
+/// asked about listed pairs that do not touch (depth <= 0), too: their force is dropped, their history and losses
+/// count. `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the time-step estimate and the
+/// servo.
 template <class L>
 concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename L::history> &&
     std::default_initializable<typename L::history> &&
@@ -39,7 +41,6 @@ concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename 
     { law.stored(o, ch) } -> std::convertible_to<double>;
     { law.normal_stiffness(o) } -> std::convertible_to<double>;
     { law.shear_stiffness(o) } -> std::convertible_to<double>;
-    { L::is_resting(ch) } -> std::same_as<bool>;
 };
 
 } // namespace clast::contacts

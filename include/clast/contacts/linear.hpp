@@ -76,8 +76,6 @@ struct linear {
     }
     constexpr double normal_stiffness(const overlap<double>&) const { return kn; }
     constexpr double shear_stiffness(const overlap<double>&) const { return ks; }
-    /// True if an open contact with this history exerts nothing and need not be evaluated.
-    static constexpr bool is_resting(const history& h) { return h.x == 0.0 && h.y == 0.0 && h.z == 0.0; }
 };
 
 static_assert(contact_law<linear>);

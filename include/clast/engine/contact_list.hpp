@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs of pebbles that touch or may touch soon, with the history of their contact, and the rows that they write.
+// Pebbles as contacts see them, the pairs that touch or may touch soon, the history of their contact, and the rows that
+// they write.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +14,24 @@
 
 namespace clast {
 
-/// What one contact or wall contact exerts in this step; bodies sum their rows in a fixed order.
+/// What contacts read of a pebble, side by side in memory: two lines of it make a contact. Velocities are those of the
+/// pebble's own centre.
+struct pebble_motion {
+    vec3 x;                       ///< centre (m)
+    double radius = 0.0;          ///< m
+    vec3 v;                       ///< velocity of the centre (m/s)
+    double inverse_mass = 0.0;    ///< of the pebble as a ball (1/kg)
+    vec3 w;                       ///< spin of its body (rad/s, world axes)
+    double inverse_inertia = 0.0; ///< of the pebble as a ball (1/(kg m^2))
+};
+
+/// What one contact exerts in this step; bodies sum their rows in a fixed order. The force acts in the middle of the
+/// overlap: at x_i + (r_i - depth / 2) normal, which is x_j - (r_j - depth / 2) normal.
 struct force_row {
     vec3 force;              ///< on pebble i (N); pebble j takes the opposite
-    vec3 point;              ///< where it acts (m)
+    double depth = 0.0;      ///< overlap (m); 0: open
+    vec3 normal;             ///< unit vector from i to j
     double dissipated = 0.0; ///< in this step (J)
-    double depth = 0.0;      ///< overlap (m); 0: open, and the force is zero
 };
 
 struct pebble_pair {
@@ -27,7 +40,8 @@ struct pebble_pair {
     constexpr auto operator<=>(const pebble_pair&) const = default;
 };
 
-/// Half list sorted by (i, j). An empty history (frictionless law) takes no memory.
+/// Half list sorted by (i, j); an engine may bring contacts that threads share to the front. An empty history
+/// (frictionless law) takes no memory.
 template <class History> struct contact_list {
     static constexpr bool remembers = !std::is_empty_v<History>;
 
@@ -48,6 +62,21 @@ template <class History> struct contact_list {
         return it != pairs.end() && *it == p ? static_cast<std::size_t>(it - pairs.begin()) : pairs.size();
     }
 
+    /// Calls f(k) in the order of the pairs, of a list whose first `shared` pairs and whose others are sorted each.
+    template <class F> void each_sorted(std::size_t shared, F&& f) const {
+        std::size_t a = 0, b = shared;
+        while (a < shared || b < size()) f(b == size() || (a < shared && pairs[a] < pairs[b]) ? a++ : b++);
+    }
+    /// The contact that shall stand at k stands at order[k].
+    void reorder(std::span<const std::uint32_t> order) {
+        const auto permute = [&](auto& v) {
+            auto old = v;
+            for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
+        };
+        permute(pairs), permute(bonded), permute(rows);
+        if constexpr (remembers) permute(history);
+    }
+
     template <class A> void archive(A& a) {
         a(pairs, bonded);
         if constexpr (remembers) a(history);
@@ -56,27 +85,56 @@ template <class History> struct contact_list {
 };
 
 /// For every body the rows that act on it, in the order of the list: what makes sums independent of threads.
-struct incidence {
-    std::vector<std::uint32_t> start; ///< per body, plus the end
-    std::vector<std::uint32_t> row;   ///< row << 1 | side; side 0: the body is i, 1: the body is j
+class incidence {
+  public:
+    /// A row, and the pebble through which it acts on the body.
+    struct entry {
+        std::uint32_t row_and_side;
+        std::int32_t pebble;
 
-    std::span<const std::uint32_t> of(std::size_t body) const {
-        return {row.data() + start[body], row.data() + start[body + 1]};
+        std::size_t row() const { return row_and_side >> 1; } ///< contacts first, then rows of the wall
+        bool is_second() const { return (row_and_side & 1U) != 0; }
+        double side() const { return is_second() ? -1.0 : 1.0; } ///< sign of the row's force on this body
+    };
+
+    incidence() = default;
+    /// For bodies 0 to n - 1. `wall` holds what has a member `pebble`; owner: body of a pebble.
+    template <class History, class Wall>
+    incidence(std::size_t n, const contact_list<History>& list, const Wall& wall,
+              const std::vector<std::int32_t>& owner)
+        : start_(n + 1, 0) {
+        const auto each = [&](auto&& f) {
+            std::uint32_t row = 0;
+            const auto put = [&](std::uint32_t side, std::int32_t pebble) {
+                f(static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]), entry{row << 1 | side, pebble});
+            };
+            for (const pebble_pair& p : list.pairs) put(0, p.i), put(1, p.j), ++row;
+            for (const auto& w : wall) put(0, w.pebble), ++row;
+        };
+        each([&](std::size_t body, const entry&) { ++start_[body + 1]; });
+        for (std::size_t b = 0; b < n; ++b) start_[b + 1] += start_[b];
+        entries_.resize(start_[n]);
+        std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+        each([&](std::size_t body, const entry& e) { entries_[next[body]++] = e; });
     }
 
-    /// n bodies; each_row(f) calls f(row, side, body) for all rows in order, twice in all.
-    template <class Rows> void build(std::size_t n, Rows&& each_row) {
-        start.assign(n + 1, 0);
-        each_row([&](std::size_t, std::uint32_t, std::int32_t body) { ++start[static_cast<std::size_t>(body) + 1]; });
-        for (std::size_t b = 0; b < n; ++b) start[b + 1] += start[b];
-        row.resize(start[n]);
-        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-        each_row([&](std::size_t r, std::uint32_t side, std::int32_t body) {
-            row[next[static_cast<std::size_t>(body)]++] = static_cast<std::uint32_t>(r) << 1 | side;
-        });
+    std::span<const entry> of(std::size_t body) const {
+        return {entries_.data() + start_[body], entries_.data() + start_[body + 1]};
     }
 
-    template <class A> void archive(A& a) { a(start, row); }
+    /// The contacts were reordered: the one that now stands at k stood at order[k].
+    void renumber(std::span<const std::uint32_t> order) {
+        std::vector<std::uint32_t> now(order.size());
+        for (std::uint32_t k = 0; k < order.size(); ++k) now[order[k]] = k;
+        for (entry& e : entries_)
+            if (e.row() < now.size()) e.row_and_side = now[e.row()] << 1 | (e.row_and_side & 1U);
+    }
+
+    template <class A> void archive(A& a) { a(start_, entries_); }
+
+  private:
+    std::vector<std::uint32_t> start_; ///< per body, plus the end
+    std::vector<entry> entries_;
 };
 
 } // namespace clast

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 // One step of a specimen inside its boundary: the anatomy that every policy fits into.
 //
-//   slow contacts and facets (clump against clump, clump against facet)        rows at t_n
 //   light bodies (balls and bonded clusters) pass through the span around t_n in sub-steps of their own
 //       fast contacts and facets (at least one ball), clumps and facets moved along their velocity    rows
 //       balls sum their rows in one fixed order, are damped and integrated; clusters sub-cycle their bonds
-//   clumps sum slow rows and the mean of the fast ones, are damped and integrated
-//   criterion and replacement every few steps; servo; boundary moves
+//   slow facets (clump against facet)                                                                  rows at t_n
+//   servo
+//   sweep: slow contacts (clump against clump) in strips                                               rows at t_n
+//       behind them clumps sum slow rows and the mean of the fast ones, are looked at by the criterion every few steps,
+//       damped and integrated, while the rows are still at hand
+//   boundary moves; replacement
+//
+// Sweep: pairs are sorted by their first body, so when the strips have passed the pairs of body i, every contact of i
+// has been evaluated, as the first body or as the second, and i may move: no later contact reads it. With several
+// threads each sweeps a range of bodies of its own; contacts between two ranges are evaluated before. Every body sums
+// its rows in the order of their pebbles, so neither threads nor ranges can change a bit.
 //
 // Multirate: a contact that involves a ball is integrated with the step that the lightest ball needs, over the span
 // from t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks
@@ -19,7 +27,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -32,6 +42,7 @@
 #include <clast/core/errors.hpp>
 #include <clast/core/parallel.hpp>
 #include <clast/engine/contact_list.hpp>
+#include <clast/engine/kernel.hpp>
 #include <clast/engine/policies.hpp>
 #include <clast/engine/specimen.hpp>
 #include <clast/integrators/local_damping.hpp>
@@ -149,13 +160,11 @@ template <triaxial_policies P> class engine {
     void step() {
         if (must_rebuild_) rebuild();
         if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
-        evaluate(slow_, slow_wall_, dt_, 0.0);
         if constexpr (breakable)
             if (has_light_bodies()) advance_light();
+        settings.run.for_each(slow_wall_.size(), [&](std::size_t k) { evaluate_wall(slow_wall_[k], dt_, 0.0); });
         control();
-        if constexpr (breakable && has_criterion)
-            if (breakage_on && totals_.steps % settings.replacement.check_interval == 0) mark_critical();
-        integrate_clumps();
+        const double moved = sweep();
         finish_boundary();
         if constexpr (breakable) {
             broken_.lag = 0.5 * dt_;
@@ -164,7 +173,7 @@ template <triaxial_policies P> class engine {
         }
         totals_.time += dt_;
         ++totals_.steps;
-        check_displacements();
+        check_displacements(moved);
     }
 
     double dt() const { return dt_; }
@@ -196,30 +205,39 @@ template <triaxial_policies P> class engine {
     void set_friction(double mu) {
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
-    void set_velocity(std::size_t grain_id, const vec3& v) { grains.motion[grain_id].v = v; }
+    /// Sets the velocity of a clump's centre (m/s).
+    void set_velocity(std::size_t grain_id, const vec3& v) {
+        grains.motion[grain_id].v = v;
+        place(grain_id, 0);
+        place(grain_id, 1);
+    }
     /// To be called after velocities were set by hand, so that the audit knows of their energy.
     void count_initial_energy() { totals_.initial_energy = kinetic_energy(); }
 
     /// Complete state, list order and reference positions included: a run that goes on from it has the same bits.
-    /// Rows are not part of it, because a step writes all of them before it reads any; events must have been taken.
+    /// Rows are not part of it, because a step writes all of them before it reads any; events must have been taken. The
+    /// number of threads is not either: lists are saved as one thread would have them.
     template <class A> void archive(A& a) {
         place_all();
+        join_ranges();
         a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_rebuild_,
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(slow_, slow_wall_, slow_of_, reference_, reference_turn_, needed_, wall_travel_);
         if constexpr (breakable) a(fast_, fast_wall_, fast_of_, broken_);
+        split_ranges();                                                  // as the threads of this run ask for
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
         work_loads_.resize(loads_.size());
     }
 
     // ---- what measurements read ----------------------------------------------------------------------------------
 
-    /// Calls f(row, i, j) for all listed contacts; body ids of i and j through grains.owner.
+    /// Calls f(row, pair) for all listed contacts, in an order that does not depend on threads; body ids of a pair
+    /// through grains.owner.
     template <class F> void each_contact(F&& f) const {
-        for (std::size_t k = 0; k < slow_.size(); ++k) f(slow_.rows[k], slow_.pairs[k]);
-        for (std::size_t k = 0; k < fast_.size(); ++k) f(fast_.rows[k], fast_.pairs[k]);
+        slow_.each_sorted(slow_shared_, [&](std::size_t k) { f(slow_.rows[k], slow_.pairs[k]); });
+        fast_.each_sorted(0, [&](std::size_t k) { f(fast_.rows[k], fast_.pairs[k]); });
     }
     /// A pebble at the boundary: what touches it and the forces that it takes (N).
     struct wall_row {
@@ -252,21 +270,21 @@ template <triaxial_policies P> class engine {
     /// Energy in contacts, facets and bonds (J).
     double elastic_energy() const {
         double e = 0.0;
-        const auto add = [&](const contact_list<history>& list) {
-            for (std::size_t k = 0; k < list.size(); ++k) {
-                if (list.bonded[k] != 0) continue;
+        const auto add = [&](const contact_list<history>& list, std::size_t shared) {
+            list.each_sorted(shared, [&](std::size_t k) {
+                if (list.bonded[k] != 0) return;
                 const auto& pr = list.pairs[k];
-                const double d = norm(grains.position[at(pr.j)] - grains.position[at(pr.i)]);
-                const double ri = grains.radius[at(pr.i)], rj = grains.radius[at(pr.j)];
+                const double d = norm(grains.pebbles[at(pr.j)].x - grains.pebbles[at(pr.i)].x);
+                const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius;
                 const history none{};
                 const history* h = &none;
                 if constexpr (contact_list<history>::remembers) h = &list.history[k];
                 e += settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
-            }
+            });
         };
-        add(slow_), add(fast_);
+        add(slow_, slow_shared_), add(fast_, 0);
         each_wall_row([&](const wall_row& w) {
-            const double r = grains.radius[at(w.pebble)];
+            const double r = grains.pebbles[at(w.pebble)].radius;
             const double lateral = norm(boundaries::lateral_push(w.touch));
             if (lateral > 0.0) e += settings.lateral_contact.stored({0, 0, 1, lateral, r, r}, {});
             for (const boundaries::touch& t : w.touch)
@@ -301,73 +319,35 @@ template <triaxial_policies P> class engine {
 
     // ---- forces ---------------------------------------------------------------------------------------------------
 
-    /// Rows of a list and its wall. h: span since the last evaluation; ahead: time of the evaluation minus t_n.
-    void evaluate(contact_list<history>& list, std::vector<wall_row>& wall, double h, double ahead) {
-        settings.run.for_each(list.size(), [&](std::size_t k) { evaluate_contact(list, k, h, ahead); });
-        settings.run.for_each(wall.size(), [&](std::size_t k) { evaluate_wall(wall[k], h, ahead); });
+    /// Rows of the fast list and its wall, `ahead` seconds from t_n: clumps are where their velocity takes them, balls
+    /// have been placed by their sub-step. h: span since the last evaluation.
+    void evaluate_fast(double h, double ahead) {
+        const auto owned_by_clump = [&](std::int32_t p) { return at(grains.owner[at(p)]) < grains.grain_count(); };
+        const auto place = [&](std::size_t, const pebble_pair& p, vec3& d, vec3&) {
+            if (owned_by_clump(p.i)) d -= ahead * grains.pebbles[at(p.i)].v;
+            if (owned_by_clump(p.j)) d += ahead * grains.pebbles[at(p.j)].v;
+        };
+        evaluate_strips(fast_, 0, fast_.size(), h, place);
+        settings.run.for_each(fast_wall_.size(), [&](std::size_t k) { evaluate_wall(fast_wall_[k], h, ahead); });
     }
-
-    /// Where a pebble is, `ahead` seconds from t_n. Balls are placed by their sub-step.
-    vec3 place_of(std::size_t pebble, double ahead) const {
-        const vec3& x = grains.position[pebble];
-        const std::size_t owner = at(grains.owner[pebble]);
-        if (ahead == 0.0 || owner >= grains.grain_count()) return x;
-        const body_motion& m = grains.motion[owner];
-        return x + ahead * (m.v + cross(m.w, x - m.x));
+    /// Strips of a part of a list, side by side on all threads.
+    template <class Adjust>
+    void evaluate_strips(contact_list<history>& list, std::size_t begin, std::size_t end, double h, Adjust&& adjust) {
+        constexpr std::size_t length = strip<contact>::length;
+        settings.run.for_each((end - begin + length - 1) / length,
+                              [&](std::size_t k) {
+                                  strip<contact> s;
+                                  const std::size_t from = begin + k * length;
+                                  evaluate(list, from, std::min(end, from + length), grains.pebbles.data(),
+                                           settings.grain_contact, h, s, adjust);
+                              },
+                              4);
     }
-    /// Centre of the body of a pebble that is at x, at the same instant.
-    vec3 centre_of(std::size_t owner, const vec3& x, double ahead) const {
-        if (owner >= grains.grain_count()) return x;
-        const body_motion& m = grains.motion[owner];
-        return ahead == 0.0 ? m.x : m.x + ahead * m.v;
-    }
-
-    void evaluate_contact(contact_list<history>& list, std::size_t k, double h, double ahead) {
-        force_row& row = list.rows[k];
-        if (list.bonded[k] != 0) return;
-        const auto i = at(list.pairs[k].i), j = at(list.pairs[k].j);
-        const vec3 xi = place_of(i, ahead), xj = place_of(j, ahead);
-        const vec3 d = xj - xi;
-        const double ri = grains.radius[i], rj = grains.radius[j];
-        const double reach = ri + rj, distance2 = norm2(d);
-        history local{};
-        if constexpr (contact_list<history>::remembers) local = list.history[k];
-        if (distance2 >= reach * reach) {
-            bool resting = true;
-            if constexpr (contact_list<history>::remembers) resting = contact::is_resting(local);
-            if (resting) {
-                if (row.depth > 0.0 || row.dissipated != 0.0) row = {};
-                return;
-            }
-        }
-        const double distance = std::sqrt(distance2), depth = reach - distance;
-        const vec3 n = d / distance;
-        const vec3 point = xi + (ri - 0.5 * depth) * n;
-        const auto oi = at(grains.owner[i]), oj = at(grains.owner[j]);
-        const body_motion& a = grains.motion[oi];
-        const body_motion& b = grains.motion[oj];
-        // velocities of the pebbles' centres, then relative motion of i against j at the contact point over the last
-        // step, split by the normal of mid-step
-        const vec3 vi = a.v + cross(a.w, xi - centre_of(oi, xi, ahead)),
-                   vj = b.v + cross(b.w, xj - centre_of(oj, xj, ahead));
-        const vec3 centres = vj - vi;
-        const vec3 relative = cross((ri - 0.5 * depth) * a.w + (rj - 0.5 * depth) * b.w, n) - centres;
-        const vec3 mid = d - (0.5 * h) * centres;
-        const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
-        const double spin = 0.5 * h * dot(a.w + b.w, n);
-        const auto answer =
-            settings.grain_contact(contacts::overlap<double>{n.x, n.y, n.z, depth, ri, rj},
-                                   contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, n)}, local, h);
-        row.force = {answer.fx, answer.fy, answer.fz};
-        row.point = point;
-        row.dissipated = answer.dissipated;
-        row.depth = depth > 0.0 ? depth : 0.0;
-        if constexpr (contact_list<history>::remembers) list.history[k] = local;
-    }
+    static void as_is(std::size_t, const pebble_pair&, vec3&, vec3&) {}
 
     void evaluate_wall(wall_row& w, double h, double ahead) const {
-        const vec3& x = grains.position[at(w.pebble)];
-        const double r = grains.radius[at(w.pebble)];
+        const vec3& x = grains.pebbles[at(w.pebble)].x;
+        const double r = grains.pebbles[at(w.pebble)].radius;
         w.touch = boundary.touch(x, r, ahead);
         w.force = {}, w.lateral = 0.0, w.platen = {};
         if (w.touch.size == 0) return;
@@ -396,7 +376,7 @@ template <triaxial_policies P> class engine {
         for (const wall_row& w : wall) {
             if (w.touch.size == 0) continue;
             const double way = norm(boundaries::lateral_push(w.touch));
-            const double r = grains.radius[at(w.pebble)];
+            const double r = grains.pebbles[at(w.pebble)].radius;
             boundaries::sharing_matrix sharing{};
             int lateral = 0;
             if (couplings != nullptr && w.touch.size > 1) sharing = boundaries::sharing(w.touch);
@@ -424,24 +404,26 @@ template <triaxial_policies P> class engine {
         vec3 moment;
         double dissipated = 0.0;
     };
-    /// Sum of the rows of one body about its centre, in the order of the list. Friction losses are booked on side i.
+    /// Sum of the rows of one body about its centre, in the order of the list; `ahead` seconds from t_n, like the
+    /// centre. Friction losses are booked on side i.
     load_sum sum_rows(const incidence& of, std::size_t body, const contact_list<history>& list,
                       const std::vector<wall_row>& wall, const vec3& centre, double ahead) const {
         load_sum s;
         const std::size_t contacts = list.size();
-        for (std::uint32_t entry : of.of(body)) {
-            const std::size_t r = entry >> 1;
-            if (r < contacts) {
-                const force_row& row = list.rows[r];
-                if (row.depth == 0.0 && row.dissipated == 0.0) continue;
-                const vec3 f = (entry & 1U) != 0 ? -row.force : row.force;
+        for (const incidence::entry& one : of.of(body)) {
+            const pebble_motion& p = grains.pebbles[at(one.pebble)];
+            const vec3 arm = p.x - centre + ahead * p.v;
+            if (one.row() < contacts) {
+                const force_row& row = list.rows[one.row()];
+                const double side = one.side();
+                const vec3 f = side * row.force;
                 s.force += f;
-                s.moment += cross(row.point - centre, f);
-                if ((entry & 1U) == 0) s.dissipated += row.dissipated;
+                s.moment += cross(arm + (side * (p.radius - 0.5 * row.depth)) * row.normal, f);
+                if (!one.is_second()) s.dissipated += row.dissipated;
             } else {
-                const wall_row& w = wall[r - contacts];
+                const wall_row& w = wall[one.row() - contacts];
                 s.force += w.force;
-                s.moment += cross(place_of(at(w.pebble), ahead) - centre, w.force);
+                s.moment += cross(arm, w.force);
             }
         }
         return s;
@@ -472,30 +454,82 @@ template <triaxial_policies P> class engine {
         turn.q = next.q;
         place(g, 1);
     }
-    /// Places the pebbles of a clump that are in a list (needed 1) or those that are not (needed 0). The former are
-    /// placed in one place of the code only, so that output cannot change their last bit.
+    /// Places the pebbles of a clump that are in a list (needed 1) or those that are not (needed 0).
     void place(std::size_t g, std::uint8_t needed) {
         const grain& one = grains.grains[g];
         const shape& s = grains.shape_of(one);
+        const body_motion& m = grains.motion[g];
         const mat3 turn = matrix(grains.turning[g].q);
         for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
             const std::size_t p = at(one.first) + k;
-            if (needed_[p] == needed) grains.position[p] = grains.motion[g].x + turn * s.pebbles[k].offset;
+            if (needed_[p] != needed) continue;
+            const vec3 arm = turn * s.pebbles[k].offset;
+            pebble_motion& pebble = grains.pebbles[p];
+            pebble.x = m.x + arm;
+            pebble.v = m.v + cross(m.w, arm);
+            pebble.w = m.w;
         }
     }
-    void integrate_clumps() {
-        settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-            if (!grains.is_clump(g)) return;
-            load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x, 0.0);
-            if constexpr (breakable)
-                if (broken_.halo[g] != 0) {
-                    load.force += broken_.fast_load[g].force;
-                    load.moment += broken_.fast_load[g].moment;
-                    load.dissipated += broken_.fast_load[g].dissipated;
+
+    /// Evaluates all slow contacts and moves all clumps; returns the largest displacement since the last rebuild.
+    double sweep() {
+        evaluate_strips(slow_, 0, slow_shared_, dt_, as_is);
+        settings.run.for_each(
+            ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r]); }, 1);
+        double moved = 0.0;
+        for (const body_range& r : ranges_) moved = std::max(moved, r.moved);
+        if constexpr (breakable && has_criterion)
+            for (body_range& r : ranges_) {
+                std::move(r.marked.begin(), r.marked.end(), std::back_inserter(marked_));
+                r.marked.clear();
+            }
+        return moved;
+    }
+
+    struct birth_certificate {
+        std::int32_t grain;
+        std::vector<bonds::state> born;
+    };
+    /// Bodies that one thread sweeps, and the contacts whose first body is among them (those shared with another range
+    /// excepted).
+    struct body_range {
+        std::size_t first_body = 0, last_body = 0;
+        std::size_t first_row = 0, last_row = 0;
+        double moved = 0.0; ///< largest displacement of a surface in it (m)
+        std::vector<birth_certificate> marked;
+    };
+
+    void sweep_range(body_range& r) {
+        constexpr std::size_t chunk = 32;
+        strip<contact> s;
+        bool look = false;
+        if constexpr (breakable && has_criterion)
+            look = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
+        std::size_t row = r.first_row;
+        r.moved = 0.0;
+        for (std::size_t from = r.first_body; from < r.last_body; from += chunk) {
+            const std::size_t to = std::min(from + chunk, r.last_body);
+            while (row < own_end_[to - 1]) {
+                const std::size_t end = std::min(row + strip<contact>::length, r.last_row);
+                evaluate(slow_, row, end, grains.pebbles.data(), settings.grain_contact, dt_, s, as_is);
+                row = end;
+            }
+            for (std::size_t g = from; g < to; ++g) {
+                if (!grains.is_clump(g)) continue;
+                load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x, 0.0);
+                if constexpr (breakable) {
+                    if (broken_.halo[g] != 0) {
+                        load.force += broken_.fast_load[g].force;
+                        load.moment += broken_.fast_load[g].moment;
+                        load.dissipated += broken_.fast_load[g].dissipated;
+                    }
+                    if (look && is_critical(g)) r.marked.push_back(certificate(g));
                 }
-            kick_clump(g, load, dt_);
-            drift_clump(g, dt_);
-        });
+                kick_clump(g, load, dt_);
+                drift_clump(g, dt_);
+                r.moved = std::max(r.moved, displacement(g));
+            }
+        }
     }
 
     /// Balls and clusters from t_n - lag to t_n + dt/2 in sub-steps; the mean of what they do to clumps and facets.
@@ -508,7 +542,7 @@ template <triaxial_policies P> class engine {
             for (int k = 0; k < fast_steps_; ++k) {
                 const double ahead = (k + 0.5) * h - broken_.lag;
                 place_balls(0.5 * h);
-                evaluate(fast_, fast_wall_, h, ahead);
+                evaluate_fast(h, ahead);
                 couplings_.clear(); // those of the last sub-step are kept
                 add_loads(fast_wall_, share, work_loads_, &couplings_);
                 settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
@@ -535,7 +569,10 @@ template <triaxial_policies P> class engine {
         if constexpr (breakable)
             settings.run.for_each(broken_.balls.size(), [&](std::size_t k) {
                 const body_motion& m = grains.motion[ball(broken_.balls[k])];
-                grains.position[at(broken_.balls[k])] = m.x + later * m.v;
+                pebble_motion& p = grains.pebbles[at(broken_.balls[k])];
+                p.x = m.x + later * m.v;
+                p.v = m.v;
+                p.w = m.w;
             });
     }
     void place_balls() { place_balls(broken_.lag); }
@@ -543,7 +580,7 @@ template <triaxial_policies P> class engine {
     void advance_ball(std::size_t p, double h) {
         const std::size_t b = ball(static_cast<std::int32_t>(p));
         body_motion& m = grains.motion[b];
-        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[p], 0.0);
+        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.pebbles[p].x, 0.0);
         const vec3 df = damping_force(s.force, m.v, settings.damping);
         const vec3 dm = damping_force(s.moment, m.w, settings.damping);
         const vec3 v = m.v, w = m.w;
@@ -581,7 +618,7 @@ template <triaxial_policies P> class engine {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             const body_motion& m = grains.motion[b];
                             const load_sum s =
-                                sum_rows(fast_of_, b, fast_, fast_wall_, grains.position[first[l] + k], 0.0);
+                                sum_rows(fast_of_, b, fast_, fast_wall_, grains.pebbles[first[l] + k].x, 0.0);
                             balls[l * n + k] = {m.v, m.w};
                             load[l * n + k] = {s.force, s.moment};
                             grains.losses[b].friction += s.dissipated;
@@ -589,7 +626,7 @@ template <triaxial_policies P> class engine {
                     }
                     const auto normal = [&](std::size_t l, std::size_t e) {
                         const shape_bond& ends = pool.shape().ends[e];
-                        return unit(grains.position[first[l] + at(ends.b)] - grains.position[first[l] + at(ends.a)]);
+                        return unit(grains.pebbles[first[l] + at(ends.b)].x - grains.pebbles[first[l] + at(ends.a)].x);
                     };
                     const auto lost = pool.advance(batch, h, balls, load, moved, normal, reports[batch]);
                     for (std::size_t l = 0; l < lanes; ++l) {
@@ -619,12 +656,12 @@ template <triaxial_policies P> class engine {
             const std::int32_t first = grains.grains[at(g)].first;
             const shape_bond& ends = pool.shape().ends[at(r.bond)];
             const pebble_pair pair{first + ends.a, first + ends.b};
-            const vec3 d = grains.position[at(pair.j)] - grains.position[at(pair.i)];
+            const vec3 d = grains.pebbles[at(pair.j)].x - grains.pebbles[at(pair.i)].x;
             fracture_event e;
             e.time = broken_.time;
             e.mode = r.mode;
             e.normal = unit(d);
-            e.position = grains.position[at(pair.i)] + grains.radius[at(pair.i)] * e.normal;
+            e.position = grains.pebbles[at(pair.i)].x + grains.pebbles[at(pair.i)].radius * e.normal;
             e.mother = g;
             e.bond = r.bond;
             e.normal_force = r.before.n;
@@ -665,56 +702,50 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    struct birth_certificate {
-        std::int32_t grain;
-        std::vector<bonds::state> born;
-    };
-
-    /// Looks at the criterion of every clump under the forces just evaluated, and solves the bonds of critical ones.
-    void mark_critical() {
-        if constexpr (breakable && has_criterion) {
-            critical_.assign(grains.grain_count(), 0);
-            settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-                if (!grains.is_clump(g) || grains.shape_of(grains.grains[g]).bonds.empty()) return;
-                critical_[g] = settings.breakage.utilisation(load_of(g)) >= settings.replacement.trigger ? 1 : 0;
+    /// The criterion of a clump under the forces just evaluated.
+    bool is_critical(std::size_t g) const {
+        if constexpr (breakable && has_criterion)
+            return !grains.shape_of(grains.grains[g]).bonds.empty() &&
+                   settings.breakage.utilisation(load_of(g)) >= settings.replacement.trigger;
+        return false;
+    }
+    /// The bonds with which a critical clump will be born as a cluster: solved for its present load.
+    birth_certificate certificate(std::size_t g) const {
+        if constexpr (breakable) {
+            const grain& one = grains.grains[g];
+            std::vector<bonds::pebble_load> load(grains.shape_of(one).pebbles.size());
+            each_row_of(g, [&](std::int32_t pebble, std::int32_t, const vec3& f, const vec3& point) {
+                bonds::pebble_load& l = load[at(pebble - one.first)];
+                l.force += f;
+                l.moment += cross(point - grains.pebbles[at(pebble)].x, f);
             });
-            for (std::size_t g = 0; g < grains.grain_count(); ++g) {
-                if (critical_[g] == 0) continue;
-                const grain& one = grains.grains[g];
-                std::vector<bonds::pebble_load> load(grains.shape_of(one).pebbles.size());
-                each_row_of(g, [&](std::int32_t pebble, std::int32_t, const vec3& f, const vec3& point) {
-                    bonds::pebble_load& l = load[at(pebble - one.first)];
-                    l.force += f;
-                    l.moment += cross(point - grains.position[at(pebble)], f);
-                });
-                const clump_rotation& turn = grains.turning[g];
-                marked_.push_back(
-                    {static_cast<std::int32_t>(g), settings.replacement.born(broken_.pools[at(one.shape)].shape(), load,
-                                                                             turn.q, grains.motion[g].w)});
-            }
+            return {static_cast<std::int32_t>(g), settings.replacement.born(broken_.pools[at(one.shape)].shape(), load,
+                                                                            grains.turning[g].q, grains.motion[g].w)};
         }
+        return {};
     }
 
     /// f(pebble, neighbour, force, point) for every row of clump g; neighbour: body id, or -1 - facet.
     template <class F> void each_row_of(std::size_t g, F&& f) const {
         const auto visit = [&](const incidence& of, const contact_list<history>& list,
                                const std::vector<wall_row>& wall) {
-            for (std::uint32_t entry : of.of(g)) {
-                const std::size_t r = entry >> 1;
-                if (r < list.size()) {
-                    if (list.rows[r].depth == 0.0) continue;
-                    const bool second = (entry & 1U) != 0;
-                    const pebble_pair& p = list.pairs[r];
-                    f(second ? p.j : p.i, grains.owner[at(second ? p.i : p.j)],
-                      second ? -list.rows[r].force : list.rows[r].force, list.rows[r].point);
+            for (const incidence::entry& one : of.of(g)) {
+                if (one.row() < list.size()) {
+                    const force_row& row = list.rows[one.row()];
+                    if (row.depth == 0.0) continue;
+                    const pebble_motion& p = grains.pebbles[at(one.pebble)];
+                    const double side = one.side();
+                    const pebble_pair& pair = list.pairs[one.row()];
+                    f(one.pebble, grains.owner[at(one.is_second() ? pair.i : pair.j)], side * row.force,
+                      p.x + (side * (p.radius - 0.5 * row.depth)) * row.normal);
                 } else {
-                    const wall_row& w = wall[r - list.size()];
+                    const wall_row& w = wall[one.row() - list.size()];
                     const double way = norm(boundaries::lateral_push(w.touch));
                     for (const boundaries::touch& t : w.touch) {
                         const bool platen = t.facet < boundaries::first_lateral_facet;
                         const double size = platen ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
                         f(w.pebble, -1 - t.facet, size * t.normal,
-                          grains.position[at(w.pebble)] - grains.radius[at(w.pebble)] * t.normal);
+                          grains.pebbles[at(w.pebble)].x - grains.pebbles[at(w.pebble)].radius * t.normal);
                     }
                 }
             }
@@ -763,7 +794,7 @@ template <triaxial_policies P> class engine {
                 for (std::size_t k = 0; k < pool.shape().size(); ++k) {
                     const std::size_t p = at(one.first) + k;
                     const std::size_t b = ball(static_cast<std::int32_t>(p));
-                    const vec3 x = grains.position[p];
+                    const vec3 x = grains.pebbles[p].x;
                     const vec3 v = grains.motion[g].v + cross(spin, x - grains.motion[g].x);
                     grains.motion[b] = {x - broken_.lag * v, v, spin}; // the motion of a ball trails t_n by the lag
                     grains.owner[p] = static_cast<std::int32_t>(b);
@@ -793,41 +824,36 @@ template <triaxial_policies P> class engine {
         else
             loads_.assign(loads_.size(), {}), couplings_.clear();
         add_loads(slow_wall_, 1.0, loads_, &couplings_);
-        old_speed_.resize(loads_.size());
-        for (std::size_t f = 0; f < loads_.size(); ++f) old_speed_[f] = boundary.velocity(static_cast<int>(f));
+        // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
+        const double power = boundary.power(loads_);
         boundary.control(loads_, drives, dt_, couplings_);
+        totals_.boundary_work += 0.5 * (power + boundary.power(loads_)) * dt_;
     }
     void finish_boundary() {
-        // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
-        double work = 0.0;
-        for (std::size_t f = 0; f < loads_.size(); ++f)
-            work += loads_[f].force * 0.5 * (old_speed_[f] + boundary.velocity(static_cast<int>(f)));
-        totals_.boundary_work += work * dt_;
         boundary.advance(dt_);
         wall_travel_ += boundary.fastest() * dt_;
     }
 
     // ---- lists ----------------------------------------------------------------------------------------------------
 
+    /// How far the surface of a clump may have moved since the last rebuild (m).
+    double displacement(std::size_t g) const {
+        const quaternion d = conjugate(reference_turn_[g]) * grains.turning[g].q;
+        const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
+        const double reach = grains.shape_of(grains.grains[g]).circumscribed_radius;
+        double moved = norm(grains.motion[g].x - reference_[g]) + reach * turned_by;
+        if constexpr (breakable)
+            if (broken_.halo[g] != 0) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
+        return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+    }
     /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since
     /// the last rebuild against the skin, the walls' own travel included.
-    void check_displacements() {
-        const double bodies = settings.run.max(grains.grain_count(), 0.0, [&](std::size_t g) {
-            if (!grains.is_clump(g)) return 0.0;
-            const quaternion d = conjugate(reference_turn_[g]) * grains.turning[g].q;
-            const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
-            const double reach = grains.shape_of(grains.grains[g]).circumscribed_radius;
-            double moved = norm(grains.motion[g].x - reference_[g]) + reach * turned_by;
-            if constexpr (breakable)
-                if (broken_.halo[g] != 0) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
-            return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
-        });
-        double largest = bodies;
+    void check_displacements(double largest) {
         if constexpr (breakable)
             largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
                 const std::size_t b = ball(broken_.balls[k]);
                 const double moved =
-                    norm(grains.position[at(broken_.balls[k])] - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                    norm(grains.pebbles[at(broken_.balls[k])].x - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
                 return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
             });
         if (!std::isfinite(largest)) explain_nan();
@@ -853,6 +879,7 @@ template <triaxial_policies P> class engine {
     /// Finds all pairs within the skin: first bodies by their bounding spheres, then pebbles. Histories carry over.
     void rebuild() {
         place_all();
+        join_ranges();
         const std::size_t ng = grains.grain_count();
         std::vector<searches::sphere> spheres;
         for (std::size_t g = 0; g < ng; ++g)
@@ -861,7 +888,8 @@ template <triaxial_policies P> class engine {
                                    static_cast<std::int32_t>(g)});
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls)
-                spheres.push_back({grains.position[at(p)], grains.radius[at(p)], static_cast<std::int32_t>(ball(p))});
+                spheres.push_back(
+                    {grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius, static_cast<std::int32_t>(ball(p))});
         const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, settings.skin);
 
         constexpr std::size_t chunk = 256;
@@ -901,9 +929,10 @@ template <triaxial_policies P> class engine {
 
         list_walls();
         index_rows();
+        split_ranges();
         reference_.resize(grains.motion.size());
         for (std::size_t b = 0; b < grains.motion.size(); ++b)
-            reference_[b] = b < ng ? grains.motion[b].x : grains.position[b - ng];
+            reference_[b] = b < ng ? grains.motion[b].x : grains.pebbles[b - ng].x;
         reference_turn_.resize(ng);
         for (std::size_t g = 0; g < ng; ++g) reference_turn_[g] = grains.turning[g].q;
         wall_travel_ = 0.0;
@@ -922,10 +951,10 @@ template <triaxial_policies P> class engine {
         const auto [a0, a1] = range(a);
         const auto [b0, b1] = range(b);
         for (std::size_t i = a0; i < a1; ++i) {
-            const searches::sphere pi{grains.position[i], grains.radius[i]};
+            const searches::sphere pi{grains.pebbles[i].x, grains.pebbles[i].radius};
             if (!searches::within(pi, b, settings.skin)) continue;
             for (std::size_t j = b0; j < b1; ++j)
-                if (searches::within(pi, {grains.position[j], grains.radius[j]}, settings.skin))
+                if (searches::within(pi, {grains.pebbles[j].x, grains.pebbles[j].radius}, settings.skin))
                     out.push_back(
                         {static_cast<std::int32_t>(std::min(i, j)), static_cast<std::int32_t>(std::max(i, j))});
         }
@@ -953,7 +982,7 @@ template <triaxial_policies P> class engine {
             if (clump && !boundary.near(grains.motion[g].x, s.circumscribed_radius + settings.skin)) continue;
             for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
                 const std::size_t p = at(one.first) + k;
-                if (!boundary.near(grains.position[p], grains.radius[p] + settings.skin)) continue;
+                if (!boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + settings.skin)) continue;
                 wall_row w;
                 w.pebble = static_cast<std::int32_t>(p);
                 (clump ? slow_wall_ : fast_wall_).push_back(w);
@@ -962,16 +991,7 @@ template <triaxial_policies P> class engine {
     }
 
     void index_rows() {
-        const auto rows = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
-            return [&](auto&& f) {
-                for (std::size_t k = 0; k < list.size(); ++k) {
-                    f(k, 0U, grains.owner[at(list.pairs[k].i)]);
-                    f(k, 1U, grains.owner[at(list.pairs[k].j)]);
-                }
-                for (std::size_t k = 0; k < wall.size(); ++k) f(list.size() + k, 0U, grains.owner[at(wall[k].pebble)]);
-            };
-        };
-        slow_of_.build(grains.grain_count(), rows(slow_, slow_wall_));
+        slow_of_ = incidence(grains.grain_count(), slow_, slow_wall_, grains.owner);
         needed_.assign(grains.pebble_count(), 0);
         const auto need = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
             for (const pebble_pair& p : list.pairs) needed_[at(p.i)] = needed_[at(p.j)] = 1;
@@ -979,11 +999,68 @@ template <triaxial_policies P> class engine {
         };
         need(slow_, slow_wall_);
         if constexpr (breakable) {
-            fast_of_.build(grains.motion.size(), rows(fast_, fast_wall_));
+            fast_of_ = incidence(grains.motion.size(), fast_, fast_wall_, grains.owner);
             need(fast_, fast_wall_);
             for (std::size_t g = 0; g < grains.grain_count(); ++g)
                 broken_.halo[g] = grains.is_clump(g) && !fast_of_.of(g).empty() ? 1 : 0;
         }
+    }
+
+    /// Cuts the bodies into one range for each thread, with about equally many contacts, and moves the contacts between
+    /// two ranges to the front of the list. The sums of bodies keep their order.
+    void split_ranges() {
+        constexpr std::size_t least = 2048; ///< contacts that are worth a thread
+        const std::size_t n = slow_.size(), bodies = grains.grain_count();
+        const std::size_t count =
+            std::clamp<std::size_t>(n / least, 1, static_cast<std::size_t>(settings.run.threads()));
+        ranges_.assign(count, {});
+        std::vector<std::size_t> range_of(bodies, 0);
+        {
+            std::size_t row = 0, body = 0;
+            for (std::size_t r = 0; r < count; ++r) {
+                ranges_[r].first_body = body;
+                const std::size_t target = (r + 1) * n / count;
+                while (body < bodies && (r + 1 == count || row < target)) {
+                    while (row < n && at(grains.owner[at(slow_.pairs[row].i)]) == body) ++row;
+                    range_of[body++] = r;
+                }
+                ranges_[r].last_body = body;
+            }
+        }
+        slow_shared_ = 0;
+        if (count > 1) {
+            std::vector<std::uint32_t> order(n);
+            std::iota(order.begin(), order.end(), 0U);
+            const auto shared = [&](std::uint32_t k) {
+                const pebble_pair& p = slow_.pairs[k];
+                return range_of[at(grains.owner[at(p.i)])] != range_of[at(grains.owner[at(p.j)])];
+            };
+            slow_shared_ =
+                static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), shared) - order.begin());
+            slow_.reorder(order);
+            slow_of_.renumber(order);
+        }
+        own_end_.assign(bodies, 0);
+        std::size_t row = slow_shared_;
+        for (body_range& r : ranges_) {
+            r.first_row = row;
+            for (std::size_t b = r.first_body; b < r.last_body; ++b) {
+                while (row < n && at(grains.owner[at(slow_.pairs[row].i)]) == b) ++row;
+                own_end_[b] = static_cast<std::uint32_t>(row);
+            }
+            r.last_row = row;
+        }
+    }
+    /// Back to one sorted list, as if there had been one thread.
+    void join_ranges() {
+        if (slow_shared_ == 0) return;
+        std::vector<std::uint32_t> order(slow_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::inplace_merge(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slow_shared_), order.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return slow_.pairs[a] < slow_.pairs[b]; });
+        slow_.reorder(order);
+        slow_of_.renumber(order);
+        slow_shared_ = 0;
     }
 
     // ---- time step ------------------------------------------------------------------------------------------------
@@ -995,7 +1072,7 @@ template <triaxial_policies P> class engine {
         for (std::vector<wall_row>* wall : {&slow_wall_, &fast_wall_})
             settings.run.for_each(wall->size(), [&](std::size_t k) {
                 wall_row& w = (*wall)[k];
-                w.touch = boundary.touch(grains.position[at(w.pebble)], grains.radius[at(w.pebble)]);
+                w.touch = boundary.touch(grains.pebbles[at(w.pebble)].x, grains.pebbles[at(w.pebble)].radius);
             });
         double limit = typical_limit(smallest_mass_);
         limit = -settings.run.max(grains.grain_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
@@ -1013,38 +1090,39 @@ template <triaxial_policies P> class engine {
         estimate_due_ = false;
     }
 
-    /// Step (s) that three typical contacts would allow a body of this mass (kg): an upper bound, because contacts come and
-    /// go between two estimates.
+    /// Step (s) that three typical contacts would allow a body of this mass (kg): an upper bound, because contacts come
+    /// and go between two estimates.
     double typical_limit(double mass) const {
         const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
-        const double k = (settings.grain_contact.normal_stiffness(typical) +
-                          2.0 * settings.grain_contact.shear_stiffness(typical)) /
-                         3.0;
+        const double k =
+            (settings.grain_contact.normal_stiffness(typical) + 2.0 * settings.grain_contact.shear_stiffness(typical)) /
+            3.0;
         return settings.safety * std::sqrt(mass / (3.0 * k));
     }
 
     void add_stiffness(stiffness_sum& k, const incidence& of, std::size_t body, const contact_list<history>& list,
                        const std::vector<wall_row>& wall, const vec3& centre) const {
-        for (std::uint32_t entry : of.of(body)) {
-            const std::size_t r = entry >> 1;
+        for (const incidence::entry& one : of.of(body)) {
+            const std::size_t r = one.row();
             if (r < list.size()) {
                 const auto& pr = list.pairs[r];
-                const vec3 d = grains.position[at(pr.j)] - grains.position[at(pr.i)];
-                const double ri = grains.radius[at(pr.i)], rj = grains.radius[at(pr.j)], distance = norm(d);
+                const vec3 d = grains.pebbles[at(pr.j)].x - grains.pebbles[at(pr.i)].x;
+                const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius,
+                             distance = norm(d);
                 if (list.bonded[r] != 0 || distance >= ri + rj) continue;
                 const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
                 const vec3 n = d / distance;
                 k.add(n, settings.grain_contact.normal_stiffness(o), settings.grain_contact.shear_stiffness(o),
-                      grains.position[at(pr.i)] + (ri - 0.5 * o.depth) * n - centre);
+                      grains.pebbles[at(pr.i)].x + (ri - 0.5 * o.depth) * n - centre);
             } else {
                 const wall_row& w = wall[r - list.size()];
-                const double rp = grains.radius[at(w.pebble)];
+                const double rp = grains.pebbles[at(w.pebble)].radius;
                 for (const boundaries::touch& t : w.touch) {
                     const contacts::overlap<double> o{0, 0, 1, t.depth, rp, rp};
                     const contact& law =
                         t.facet < boundaries::first_lateral_facet ? settings.platen_contact : settings.lateral_contact;
                     k.add(t.normal, law.normal_stiffness(o), 0.0,
-                          grains.position[at(w.pebble)] - rp * t.normal - centre);
+                          grains.pebbles[at(w.pebble)].x - rp * t.normal - centre);
                 }
             }
         }
@@ -1080,7 +1158,7 @@ template <triaxial_policies P> class engine {
                 const auto p = at(broken_.balls[a]);
                 if (broken_.fragment[p] != piece) continue;
                 mass += grains.ball_mass(p);
-                centre += grains.ball_mass(p) * grains.position[p];
+                centre += grains.ball_mass(p) * grains.pebbles[p].x;
             }
             centre = centre / mass;
             stiffness_sum k(mat3::identity());
@@ -1088,7 +1166,7 @@ template <triaxial_policies P> class engine {
             for (std::size_t a = begin; a < end; ++a) {
                 const auto p = at(broken_.balls[a]);
                 if (broken_.fragment[p] != piece) continue;
-                const vec3 arm = grains.position[p] - centre;
+                const vec3 arm = grains.pebbles[p].x - centre;
                 const double m = grains.ball_mass(p);
                 tensor += (grains.ball_inertia(p) + m * norm2(arm)) * mat3::identity() + (-m) * outer(arm, arm);
                 add_stiffness(k, fast_of_, ball(broken_.balls[a]), fast_, fast_wall_, centre);
@@ -1110,8 +1188,9 @@ template <triaxial_policies P> class engine {
     std::vector<std::uint8_t> needed_;       ///< per pebble: in a list, so placed in every step
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
-    std::vector<double> old_speed_;
-    std::vector<std::uint8_t> critical_;
+    std::vector<body_range> ranges_;
+    std::vector<std::uint32_t> own_end_;    ///< per body: end of the contacts whose first body it is, in its range
+    std::size_t slow_shared_ = 0;           ///< slow contacts between two ranges; they come first in the list
     std::vector<birth_certificate> marked_; ///< empty between steps
     std::conditional_t<breakable, breakage_state, nothing> broken_;
     engine_totals totals_;

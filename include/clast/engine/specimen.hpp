@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <clast/core/vector.hpp>
+#include <clast/engine/contact_list.hpp>
 #include <clast/grains/shape.hpp>
 
 namespace clast {
@@ -44,8 +45,7 @@ struct specimen {
     double density = 2650.0; ///< kg/m^3
 
     std::vector<grain> grains;
-    std::vector<vec3> position;          ///< per pebble (m)
-    std::vector<double> radius;          ///< per pebble (m)
+    std::vector<pebble_motion> pebbles;  ///< per pebble; of clumps only those in a contact list are kept up to date
     std::vector<std::int32_t> mother;    ///< per pebble: its grain
     std::vector<std::int32_t> owner;     ///< per pebble: its body
     std::vector<body_motion> motion;     ///< per body
@@ -53,12 +53,12 @@ struct specimen {
     std::vector<body_losses> losses;     ///< per body
 
     std::size_t grain_count() const { return grains.size(); }
-    std::size_t pebble_count() const { return position.size(); }
+    std::size_t pebble_count() const { return pebbles.size(); }
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
     bool is_clump(std::size_t g) const { return grains[g].cluster < 0; }
     double mass_of(const grain& g) const { return density * shape_of(g).volume; }
-    double ball_mass(std::size_t p) const { return density * sphere_volume(radius[p]); }
-    double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(radius[p]); }
+    double ball_mass(std::size_t p) const { return density * sphere_volume(pebbles[p].radius); }
+    double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(pebbles[p].radius); }
     vec3 inverse_inertia(const grain& g) const {
         const vec3 i = density * shape_of(g).inertia_per_density;
         return {1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
@@ -66,7 +66,7 @@ struct specimen {
     /// Total pebble volume (m^3): invariant under replacement.
     double solid_volume() const {
         double v = 0.0;
-        for (double r : radius) v += sphere_volume(r);
+        for (const pebble_motion& p : pebbles) v += sphere_volume(p.radius);
         return v;
     }
 
@@ -74,10 +74,14 @@ struct specimen {
     std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
-        grains.push_back({static_cast<std::int32_t>(position.size()), shape_index, -1});
+        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
         for (const shape_pebble& p : s.pebbles) {
-            position.push_back(centre + rotate(q, p.offset));
-            radius.push_back(p.radius);
+            pebbles.push_back({centre + rotate(q, p.offset),
+                               p.radius,
+                               {},
+                               1.0 / (density * sphere_volume(p.radius)),
+                               {},
+                               1.0 / (density * sphere_inertia_per_density(p.radius))});
             mother.push_back(id);
             owner.push_back(id);
         }
@@ -88,7 +92,7 @@ struct specimen {
     }
 
     template <class A> void archive(A& a) {
-        a(shapes, density, grains, position, radius, mother, owner, motion, turning, losses);
+        a(shapes, density, grains, pebbles, mother, owner, motion, turning, losses);
     }
 };
 

@@ -15,7 +15,7 @@ namespace clast {
 struct sample {
     double time = 0.0;                 ///< model time (s)
     std::string stage;                 ///< name of the running stage
-    double axial_strain = 0.0;        ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
+    double axial_strain = 0.0;         ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
     double volumetric_strain = 0.0;    ///< 1 - V/V0, positive in compression
     double height = 0.0;               ///< platen distance H (m)
     double volume = 0.0;               ///< enclosed volume V (m^3)

@@ -23,12 +23,13 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
     const auto& s = e.grains;
     const auto centre = [&](std::size_t pebble) { // of its body
         const std::size_t owner = at(s.owner[pebble]);
-        return owner < s.grain_count() ? s.motion[owner].x : s.position[pebble];
+        return owner < s.grain_count() ? s.motion[owner].x : s.pebbles[pebble].x;
     };
     e.each_contact([&](const auto& row, const auto& pair) {
         if (row.depth == 0.0) return;
         const vec3 branch = centre(at(pair.j)) - centre(at(pair.i));
-        f(-row.force, branch, row.point);
+        const auto& p = s.pebbles[at(pair.i)];
+        f(-row.force, branch, p.x + (p.radius - 0.5 * row.depth) * row.normal);
     });
     e.each_wall_row([&](const auto& w) {
         const double way = norm(boundaries::lateral_push(w.touch));
@@ -36,7 +37,7 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
         for (const boundaries::touch& t : w.touch) {
             const double size =
                 t.facet < boundaries::first_lateral_facet ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
-            const vec3 point = s.position[p] - s.radius[p] * t.normal;
+            const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * t.normal;
             f(-size * t.normal, point - centre(p), point);
         }
     });
@@ -49,9 +50,9 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
                     if (!pool.is_intact(c, b)) continue;
                     const std::size_t first = at(s.grains[at(broken.members[k][c])].first);
                     const std::size_t i = first + at(pool.shape().ends[b].a), j = first + at(pool.shape().ends[b].b);
-                    const vec3 d = s.position[j] - s.position[i];
+                    const vec3 d = s.pebbles[j].x - s.pebbles[i].x;
                     const auto bond = pool.get(c, b);
-                    f(-(bond.n * unit(d) + bond.v), d, s.position[i] + s.radius[i] * unit(d));
+                    f(-(bond.n * unit(d) + bond.v), d, s.pebbles[i].x + s.pebbles[i].radius * unit(d));
                 }
         }
     }
@@ -108,7 +109,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         sum[a] += size, sum[b] += size;
         forces += size, ++count, ++c.contacts;
         if (a != b) neighbours.emplace_back(std::min(a, b), std::max(a, b));
-        const double over = row.depth / std::min(s.radius[at(pair.i)], s.radius[at(pair.j)]);
+        const double over = row.depth / std::min(s.pebbles[at(pair.i)].radius, s.pebbles[at(pair.j)].radius);
         if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = pair.i, c.deepest_j = pair.j;
     });
     e.each_wall_row([&](const auto& w) {
@@ -117,7 +118,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         const double size = norm(w.force);
         net[a] += w.force, sum[a] += size;
         forces += size, ++count;
-        const double over = norm(boundaries::lateral_push(w.touch)) / s.radius[at(w.pebble)];
+        const double over = norm(boundaries::lateral_push(w.touch)) / s.pebbles[at(w.pebble)].radius;
         if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = w.pebble, c.deepest_j = -1;
     });
     double largest = 0.0, total = 0.0;

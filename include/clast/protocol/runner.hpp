@@ -180,13 +180,13 @@ template <triaxial_policies P> class runner {
             const auto g = static_cast<std::size_t>(s.mother[p]);
             const auto owner = static_cast<std::size_t>(s.owner[p]);
             pebble_view& v = out[p];
-            v.position = s.position[p];
-            v.radius = s.radius[p];
+            v.position = s.pebbles[p].x;
+            v.radius = s.pebbles[p].radius;
             v.grain = s.mother[p];
             v.fragment = s.grains[g].first;
             v.velocity = s.motion[owner].v;
-            if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.position[p] - s.motion[owner].x);
-            if (!reference_.empty()) v.displacement = s.position[p] - reference_[p];
+            if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.pebbles[p].x - s.motion[owner].x);
+            if (!reference_.empty()) v.displacement = s.pebbles[p].x - reference_[p];
             if constexpr (engine_type::breakable)
                 if (!s.is_clump(g)) {
                     v.fragment = sim.breakage().fragment[p];
@@ -236,7 +236,8 @@ template <triaxial_policies P> class runner {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
             sim.place_all();
-            reference_ = sim.grains.position;
+            reference_.clear();
+            for (const pebble_motion& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
         }
         sim.breakage_on = s.breakage;
         sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
@@ -418,7 +419,7 @@ template <triaxial_policies P> class runner {
             // clumps are looked at by their centre, balls by their own
             const bool clump = owner < s.grain_count();
             if (clump && static_cast<std::int32_t>(p) != s.grains[owner].first) continue;
-            if (!sim.boundary.outside(s.motion[owner].x, s.radius[p])) continue;
+            if (!sim.boundary.outside(s.motion[owner].x, s.pebbles[p].radius)) continue;
             const vec3 x = s.motion[owner].x;
             throw run_error(
                 {fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <clast/engine/kernel.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include <clast/contacts/linear.hpp>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+
+using linear = contacts::linear;
+using list_type = contact_list<linear::history>;
+
+/// Pairs of touching and of nearly touching pebbles, all moving and spinning, some with a shear force already.
+struct scene {
+    std::vector<pebble_motion> pebbles;
+    list_type list;
+    linear law{2e6, 1e6, 0.3};
+
+    explicit scene(std::size_t n) {
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> u(-1.0, 1.0);
+        const auto any = [&](double size) { return vec3{size * u(random), size * u(random), size * u(random)}; };
+        for (std::size_t k = 0; k < n; ++k) {
+            const vec3 c = any(1.0), d = unit(any(1.0));
+            const double r = 0.01 * (1.0 + 0.3 * u(random)), s = 0.01 * (1.0 + 0.3 * u(random));
+            const double gap = 1e-4 * u(random); // about half of them touch
+            pebbles.push_back({c, r, any(0.5), 1.0, any(20.0), 1.0});
+            pebbles.push_back({c + (r + s + gap) * d, s, any(0.5), 1.0, any(20.0), 1.0});
+            const auto first = static_cast<std::int32_t>(2 * k);
+            list.pairs.push_back({first, first + 1});
+        }
+        list.resize_rows();
+        for (std::size_t k = 0; k < n; k += 3) {
+            const vec3 f = any(30.0);
+            list.history[k] = {f.x, f.y, f.z};
+        }
+    }
+};
+
+void as_is(std::size_t, const pebble_pair&, vec3&, vec3&) {}
+
+bool same_bits(const list_type& a, const list_type& b) {
+    return std::memcmp(a.rows.data(), b.rows.data(), a.size() * sizeof(force_row)) == 0 &&
+           std::memcmp(a.history.data(), b.history.data(), a.size() * sizeof(linear::history)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("a strip answers every contact as the law does alone, and open pairs exert nothing") {
+    scene s(200);
+    const list_type before = s.list;
+    const double h = 1e-5;
+    strip<linear> work;
+    evaluate(s.list, 0, s.list.size(), s.pebbles.data(), s.law, h, work, as_is);
+    std::size_t touching = 0, sheared = 0;
+    double worst = 0.0;
+    for (std::size_t k = 0; k < s.list.size(); ++k) {
+        const pebble_motion& a = s.pebbles[2 * k];
+        const pebble_motion& b = s.pebbles[2 * k + 1];
+        const force_row& row = s.list.rows[k];
+        // the same from textbook formulas: velocities of the two surfaces at the middle of the overlap
+        const double distance = norm(b.x - a.x), depth = a.radius + b.radius - distance;
+        const vec3 n = unit(b.x - a.x);
+        if (depth <= 0.0) {
+            CHECK(row.depth == 0.0);
+            CHECK(row.force == vec3{});
+            CHECK(s.list.history[k].x == 0.0);
+            continue;
+        }
+        ++touching;
+        const vec3 at = a.x + (a.radius - 0.5 * depth) * n;
+        const vec3 slip = a.v + cross(a.w, at - a.x) - b.v - cross(b.w, at - b.x);
+        const vec3 middle = unit(b.x - a.x - 0.5 * h * (b.v - a.v));
+        const vec3 u = h * reject(slip, middle);
+        linear::history history = before.history[k];
+        const auto answer =
+            s.law(contacts::overlap<double>{n.x, n.y, n.z, depth, a.radius, b.radius},
+                  contacts::motion<double>{u.x, u.y, u.z, 0.5 * h * dot(a.w + b.w, n), dot(slip, n)}, history, h);
+        worst = std::max(worst, norm(row.force - vec3{answer.fx, answer.fy, answer.fz}) / norm(row.force));
+        worst = std::max(worst, std::abs(row.dissipated - answer.dissipated) * 1e3);
+        worst = std::max(worst, norm(row.normal - n));
+        worst = std::max(worst, std::abs(row.depth - depth) / distance);
+        worst = std::max(worst, std::abs(s.list.history[k].y - history.y) / 100.0);
+        sheared += row.dissipated > 0.0;
+    }
+    CHECK(touching > 60);
+    CHECK(touching < 140);
+    CHECK(sheared > 20);
+    CHECK(worst < 1e-10); // u is a small difference
+}
+
+TEST_CASE("where a list is cut into strips does not change a bit") {
+    scene whole(200), parts(200);
+    strip<linear> work;
+    evaluate(whole.list, 0, 200, whole.pebbles.data(), whole.law, 1e-5, work, as_is);
+    for (std::size_t begin = 0, n = 1; begin < 200; begin += n, n = n * 2 + 1)
+        evaluate(parts.list, begin, std::min<std::size_t>(200, begin + n), parts.pebbles.data(), parts.law, 1e-5, work,
+                 as_is);
+    CHECK(same_bits(whole.list, parts.list));
+    evaluate(parts.list, 3, 4, parts.pebbles.data(), parts.law, 1e-5, work, as_is);
+    CHECK_FALSE(same_bits(whole.list, parts.list)); // the comparison sees a single contact
+}
+
+TEST_CASE("a contact asleep behind a bond keeps its history and exerts nothing") {
+    scene s(10);
+    s.list.history[4] = {1.0, 2.0, 3.0};
+    s.list.bonded[4] = 1;
+    strip<linear> work;
+    evaluate(s.list, 0, 10, s.pebbles.data(), s.law, 1e-5, work, as_is);
+    CHECK(s.list.history[4].z == 3.0);
+    CHECK(s.list.rows[4].force == vec3{});
+    CHECK(s.list.rows[4].depth == 0.0);
+}
+
+TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
+    scene near(20), far(20);
+    const vec3 edge{3.0, -2.0, 0.5}, speed{0.1, 0.0, -0.3};
+    for (std::size_t k = 1; k < far.pebbles.size(); k += 2) far.pebbles[k].x -= edge, far.pebbles[k].v -= speed;
+    strip<linear> work;
+    evaluate(near.list, 0, 20, near.pebbles.data(), near.law, 1e-5, work, as_is);
+    evaluate(far.list, 0, 20, far.pebbles.data(), far.law, 1e-5, work,
+             [&](std::size_t, const pebble_pair&, vec3& d, vec3& v) { d += edge, v += speed; });
+    for (std::size_t k = 0; k < 20; ++k)
+        CHECK(norm(near.list.rows[k].force - far.list.rows[k].force) <= 1e-8 * norm(near.list.rows[k].force));
+}
