@@ -127,7 +127,7 @@ TEST_CASE("a sphere in the corner of platen and membrane touches both", "[bounda
 }
 
 TEST_CASE("near() never misses a contact, and a contact seen ahead is the contact after the motion", "[boundaries]") {
-    const tiles wall = bent(2);
+    const tiles wall = bent(2, 36, 60, 0.3); // platens and ledges move, too
     tiles later = wall;
     later.advance(2e-4);
     std::mt19937 random(3);
@@ -151,9 +151,9 @@ TEST_CASE("near() never misses a contact, and a contact seen ahead is the contac
 }
 
 TEST_CASE("moving facets do exactly the work that their force times their velocity says", "[boundaries]") {
-    const tiles wall = bent(4);
+    const tiles wall = bent(4, 36, 60, 0.3); // platens move, and ledges with them
     std::mt19937 random(5);
-    double worst = 0.0;
+    double worst = 0.0, at_ledges = 0.0;
     int edges = 0;
     for (int n = 0; n < 5000; ++n) {
         const vec3 c = near_wall(random, 1.5 * r, -0.6 * r);
@@ -169,9 +169,13 @@ TEST_CASE("moving facets do exactly the work that their force times their veloci
                              elastic_energy(wall.touch(c, r, -dt), contact, contact)) /
                             (2 * dt);
         worst = std::max(worst, std::abs(rate - wall.power(loads)));
+        auto flat = loads;
+        for (facet_load& l : flat) l.edge = {};
+        at_ledges = std::max(at_ledges, std::abs(wall.power(loads) - wall.power(flat)));
     }
     CHECK(edges > 300);
-    CHECK(worst < 1e-3); // W, of forces up to 5 kN at up to 0.05 m/s: 250 W
+    CHECK(at_ledges > 10.0); // W
+    CHECK(worst < 1e-2);     // W, of forces up to 5 kN at up to 0.05 m/s: 250 W
 }
 
 TEST_CASE("the force on a sphere that slides along a bent membrane never jumps", "[boundaries]") {
@@ -258,11 +262,10 @@ TEST_CASE("a sphere pushed off a ledge also meets the tile above that it did not
     CHECK(std::hypot(0.1465 - free.x, 0.5 * step - free.z) >= r * (1.0 - 1e-9));
 }
 
-TEST_CASE("volume falls at the rate of facet area times velocity, also past partly covered rings", "[boundaries]") {
+TEST_CASE("volume falls at the rate of facet area times velocity, while rings become lower", "[boundaries]") {
     tiles wall = bent(8, 12, 80);
     std::mt19937 random(9);
     double worst = 0.0;
-    int active = 0;
     for (int n = 0; n < 400; ++n) {
         const auto loads = random_loads(wall, random, 0.02, 1e-5);
         wall.control(loads, servo(1e6, 0.02, 0.4), 1e-4); // the platens close by 0.08 mm per step, 32 mm in all
@@ -273,18 +276,26 @@ TEST_CASE("volume falls at the rate of facet area times velocity, also past part
         const double rate = sum_of_area_times_velocity(half);
         wall.advance(1e-4);
         worst = std::max(worst, std::abs((wall.volume() - v0) / 1e-4 + rate) / std::abs(rate0));
-        active = 0;
-        for (int k = 0; k < 12; ++k) active += wall.active(2 + 20 * k);
     }
-    CHECK(worst < 2e-4); // the largest: one platen passes from one ring's polygon to the next within a step
+    CHECK(worst < 1e-6);
     CHECK(wall.height() == Approx(0.7 - 2 * 0.4 * 1e-4 * 400).epsilon(1e-12));
-    CHECK(active == 12);
-    for (int n = 0; n < 380; ++n) {
-        wall.control(random_loads(wall, random, 0.02, 1e-5), servo(1e6, 0.02, 1.0), 1e-4);
-        wall.advance(1e-4);
+}
+
+TEST_CASE("rings share the height of the specimen equally, also when it has become shorter", "[boundaries]") {
+    tiles wall(specimen(12));
+    drives d;
+    d.platens = {drive::mode::velocity, 0.1, 0.0, 0.5};
+    wall.control(std::vector<facet_load>(static_cast<std::size_t>(wall.facet_count())), d, 1e-3);
+    for (int n = 0; n < 1000; ++n) wall.advance(1e-3);
+    REQUIRE(wall.height() == Approx(0.5).epsilon(1e-12));
+    for (int ring = 0; ring < 12; ++ring) {
+        const double z = wall.bottom() + (ring + 0.5) * 0.5 / 12;
+        const touches t = wall.touch({0.15 - 0.9 * r, 0.0, z}, r);
+        REQUIRE(t.size == 1);
+        CHECK(t.at[0].facet == first_lateral_facet + 20 * ring);
+        CHECK(wall.area(t.at[0].facet) == Approx(wall.area(2)).epsilon(1e-12));
     }
-    CHECK(wall.active(2 + 20 * 1));
-    CHECK_FALSE(wall.active(2)); // 4.3 mm of 58 are left, less than a tenth
+    CHECK(20 * 12 * wall.area(2) == Approx(wall.volume() / 0.5 * 2 / 0.15 * 0.5).epsilon(1e-12)); // a prism
 }
 
 TEST_CASE("the volume of a bent membrane agrees with a count of grid points", "[boundaries]") {
@@ -326,36 +337,6 @@ TEST_CASE("under the target stress nothing moves, and the errors are zero", "[bo
     wall.control(loads, d, 1e-5);
     CHECK(wall.velocity(100) < 0.0);
     CHECK(std::abs(wall.velocity(101)) < 1e-9);
-}
-
-TEST_CASE("the last sliver of a ring is controlled with its neighbour and closes up with it", "[boundaries]") {
-    cylinder_settings s = specimen(12);
-    s.column_bottom = s.bottom - 0.7 / 12 + 2e-3; // 2 mm of the lowest ring are inside: less than a pebble
-    s.column_top = s.column_bottom + 13 * 0.7 / 12;
-    s.rings = 13;
-    tiles wall(s);
-    REQUIRE_FALSE(wall.active(2));
-    REQUIRE(wall.active(22));
-    CHECK(wall.volume() == Approx(tiles(specimen(12)).volume()).epsilon(1e-12)); // it is part of the specimen
-    // the sliver carries nothing, its neighbour both shares: the target is met
-    std::vector<facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
-    for (int f = 2; f < wall.facet_count(); ++f) loads[static_cast<std::size_t>(f)] = {1e6 * wall.area(f), contact, 1};
-    for (int i = 2; i < 22; ++i) {
-        loads[static_cast<std::size_t>(i + 20)].force += loads[static_cast<std::size_t>(i)].force;
-        loads[static_cast<std::size_t>(i)] = {};
-    }
-    wall.control(loads, servo(1e6, 0.02), 1e-5);
-    CHECK(std::abs(wall.velocity(22)) < 1e-9);
-    CHECK(std::abs(wall.velocity(2)) < 1e-9);
-    CHECK(wall.confining_error(loads, 1e6) < 1e-12);
-    CHECK(wall.confining_rms(loads, 1e6) < 1e-12);
-    // its neighbour moves away: the sliver goes with it
-    loads[22 + 5].force *= 2.0;
-    wall.control(loads, servo(1e6, 0.02), 1e-5);
-    CHECK(wall.velocity(22 + 5) == -0.02);
-    CHECK(wall.velocity(2 + 5) == -0.02);
-    wall.advance(1e-3);
-    CHECK(wall.apothem(2 + 5) == wall.apothem(22 + 5));
 }
 
 TEST_CASE("a tile without contact moves in at the speed limit until a neighbour holds it", "[boundaries]") {
@@ -469,7 +450,6 @@ TEST_CASE("settings that make no membrane are refused", "[boundaries]") {
     refuse([](auto& s) { s.smallest_radius = 0; });
     refuse([](auto& s) { s.contact_stiffness_floor = 0; });
     refuse([](auto& s) { s.gaps.closing = 1.0; });
-    refuse([](auto& s) { s.column_bottom = -0.2, s.column_top = 0.35; });
 }
 
 TEST_CASE("the drawing shows the same areas, and closed facets", "[boundaries]") {

@@ -31,13 +31,11 @@ namespace clast::boundaries {
 
 /// Size, resolution and stiffness of a cylindrical boundary around the z axis. All members in SI units.
 struct cylinder_settings {
-    double radius = 0.0;        ///< apothem of every tile at the start: the polygon circumscribes this circle (m), > 0
-    double bottom = 0.0;        ///< height of the bottom platen (m)
-    double top = 0.0;           ///< height of the top platen (m), > bottom
-    int rings = 36;             ///< V_sec of the paper (not used by solid strips), >= 1
-    int tiles_per_ring = 20;    ///< H_part of the paper, >= 6; below 18 the polygon exceeds the circle by over 1 %
-    double column_bottom = 0.0; ///< the column of tiles reaches from here ...
-    double column_top = 0.0;    ///< ... to here (m), at least over the specimen; equal: the specimen's height is taken
+    double radius = 0.0;     ///< apothem of every tile at the start: the polygon circumscribes this circle (m), > 0
+    double bottom = 0.0;     ///< height of the bottom platen (m)
+    double top = 0.0;        ///< height of the top platen (m), > bottom
+    int rings = 36;          ///< V_sec of the paper (not used by solid strips), >= 1
+    int tiles_per_ring = 20; ///< H_part of the paper, >= 6; below 18 the polygon exceeds the circle by over 1 %
     double platen_stiffness = 3.2e8;      ///< of the piece (N/m), paper Table 1
     double tile_stiffness = 3.2e6;        ///< of the piece (N/m), paper Table 1
     double smallest_radius = 0.0;         ///< of all pebbles (m), > 0
@@ -65,10 +63,11 @@ enum class moving_unit { wall, ring, tile };
 /// Lateral wall of flat facets and two platens. Facets: 0 bottom platen, 1 top platen, 2 + ring * tiles_per_ring +
 /// tile, tile i facing the azimuth 2 pi i / tiles_per_ring. A facet's velocity is positive inward (dR/dt = -V).
 ///
-/// Grains meet the wall as a solid of steps and valleys (push_out.hpp). The column of tiles stays in place while the
-/// platens pass along it: a ring acts over its part between the platens. An end ring of which less than
-/// max(0.1 tile height, smallest pebble radius) is left has no servo of its own: it closes up with the nearest active
-/// ring, which is controlled on the area and force of both, so that neither stress nor volume has a gap or a jump.
+/// Grains meet the wall as a solid of steps and valleys (push_out.hpp). The rings share the height between the platens
+/// equally and are shortened with the specimen, as a membrane that is clamped to its platens. A column that stays in
+/// place while the platens pass along it, the more literal reading of the paper, was tried: grains then drag along the
+/// ledges between rings, which carried 2 to 5 % of the axial load of a half-scale test, and slivers of rings at the
+/// platens, too low to find a grain, put the mean confining stress wrong by up to 1 %.
 template <moving_unit Unit> class faceted_cylinder {
   public:
     /// Throws input_error where a setting makes no sense.
@@ -135,23 +134,16 @@ template <moving_unit Unit> class faceted_cylinder {
     }
     /// Distance of a lateral facet's plane from the axis (m).
     double apothem(int facet) const { return apothem_[index(facet - first_lateral_facet)]; }
-    /// Area of a facet that encloses the specimen (m^2): visible width times height between the platens; for a platen
-    /// the polygon of the ring it closes. d volume / dt = - sum of area times velocity.
+    /// Area of a facet that encloses the specimen (m^2): visible width times height; for a platen the mean section.
+    /// d volume / dt = - sum of area times velocity.
     double area(int facet) const {
-        if (facet == bottom_platen) return ring_area_[index(covered_first_)];
-        if (facet == top_platen) return ring_area_[index(covered_last_)];
-        const int ring = (facet - first_lateral_facet) / around_;
-        return visible_[index(facet - first_lateral_facet)].width() * covered_[index(ring)];
-    }
-    /// Whether a lateral facet's ring has a servo of its own (see the class).
-    bool active(int facet) const {
-        const int ring = (facet - first_lateral_facet) / around_;
-        return facet >= first_lateral_facet && ring >= active_first_ && ring <= active_last_;
+        if (facet < first_lateral_facet) return section();
+        return visible_[index(facet - first_lateral_facet)].width() * tile_height();
     }
 
     // --- motion ----------------------------------------------------------------------------------------------------
-    /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap control, then the
-    /// facets that follow others. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
+    /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap
+    /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
     /// `couplings` name facets that share pebbles, so that their servos act together (control/servo_group.hpp).
     void control(std::span<const facet_load> loads, const drives& d, double dt,
                  std::span<const coupling> couplings = {});
@@ -185,10 +177,17 @@ template <moving_unit Unit> class faceted_cylinder {
     }
     /// Root mean square over the moving units (tiles, rings, wall) of (F - sigma A) / (sigma A); hidden tiles left out.
     double confining_rms(std::span<const facet_load> loads, double sigma) const;
-    /// Rate of work done on the specimen by all facets (W): sum of force times inward velocity.
+    /// Rate of work done on the specimen by all facets (W): force times inward velocity, and that of the ledges between
+    /// rings, which move with the platens.
     double power(std::span<const facet_load> loads) const {
         double sum = 0.0;
-        for (int f = 0; f < facet_count(); ++f) sum += loads[index(f)].force * velocity(f);
+        for (int f = 0; f < facet_count(); ++f) {
+            const facet_load& l = loads[index(f)];
+            sum += l.force * velocity(f);
+            if (f < first_lateral_facet) continue;
+            const int ring = (f - first_lateral_facet) / around_;
+            sum += l.edge[0] * edge_velocity(ring) + l.edge[1] * edge_velocity(ring + 1);
+        }
         return sum;
     }
     /// The platens (as squares around the wall) and all visible tiles.
@@ -196,26 +195,31 @@ template <moving_unit Unit> class faceted_cylinder {
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        a(set_, rings_, around_, tile_height_, half_width_, dir_, platens_, apothem_, velocity_, visible_, covered_,
-          ring_area_, ring_smallest_, volume_, lateral_area_, lateral_speed_, covered_first_, covered_last_,
-          active_first_, active_last_, latch_, chains_, backward_, counters_);
+        a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, volume_,
+          lateral_area_, lateral_speed_, latch_, chains_, backward_, counters_);
     }
 
   private:
     static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
     std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
-    double low_edge(int ring) const { return set_.column_bottom + ring * tile_height_; }
+    double tile_height() const { return height() / rings_; }
+    /// Height (m) and upward velocity (m/s) of the edge below a ring; the one above the last ring is number rings_.
+    double low_edge(int ring) const { return bottom() + ring * tile_height(); }
+    double edge_velocity(int ring) const {
+        const double share = static_cast<double>(ring) / rings_;
+        return (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1];
+    }
     /// Units around the axis: each ring is one unit, or each tile.
     int units_around() const { return Unit == moving_unit::tile ? around_ : 1; }
 
     struct ring_range {
         int first, last;
     };
-    /// Rings between the platens that the heights [low, high] meet; the end ones reach on for ever.
+    /// Rings that the heights [low, high] meet; the end ones reach on for ever.
     ring_range rings_within(double low, double high) const {
         const auto ring = [&](double z) {
-            const double k = std::floor((z - set_.column_bottom) / tile_height_);
-            return k <= covered_first_ ? covered_first_ : k >= covered_last_ ? covered_last_ : static_cast<int>(k);
+            const double k = std::floor((z - bottom()) / tile_height());
+            return k <= 0.0 ? 0 : k >= rings_ - 1 ? rings_ - 1 : static_cast<int>(k);
         };
         return {ring(low), ring(high)};
     }
@@ -224,7 +228,6 @@ template <moving_unit Unit> class faceted_cylinder {
                   std::size_t& n) const;
     void refresh();
     void check_state() const;
-    void choose_active();
     double lateral_force(std::span<const facet_load> loads) const {
         double sum = 0.0;
         for (int f = first_lateral_facet; f < facet_count(); ++f) sum += loads[index(f)].force;
@@ -239,31 +242,25 @@ template <moving_unit Unit> class faceted_cylinder {
         facet_load load;
         double area = 0.0;
     };
-    /// Sums load and area of what moves together, the ends that follow included, into one entry per unit of every ring.
+    /// Sums load and area of what moves together into one entry per unit of every ring.
     void collect(std::span<const facet_load> loads, std::vector<unit_load>& units) const;
     void servo_wall(const drive& d, double dt, std::span<const coupling> couplings);
     void control_gaps();
-    void follow(const drive& d, double dt);
 
     cylinder_settings set_;
     int rings_ = 1;
     int around_ = 0;
-    double tile_height_ = 0.0;
     double half_width_ = 0.0;
     directions dir_;
     platens platens_;
     std::vector<double> apothem_;  // per tile, ring-major
     std::vector<double> velocity_; // per tile, inward
     std::vector<interval> visible_;
-    std::vector<double> covered_;       // per ring: height between the platens
-    std::vector<double> ring_area_;     // per ring: area of the polygon
     std::vector<double> ring_smallest_; // per ring: least apothem
     double volume_ = 0.0;
     double lateral_area_ = 0.0;
-    double lateral_speed_ = 0.0;               // largest |velocity_|
-    int covered_first_ = 0, covered_last_ = 0; // rings that meet the specimen
-    int active_first_ = 0, active_last_ = -1;  // rings with a servo of their own
-    std::vector<std::uint8_t> latch_;          // columns first, then rings
+    double lateral_speed_ = 0.0;      // largest |velocity_|
+    std::vector<std::uint8_t> latch_; // columns first, then rings
     std::vector<control::chain> chains_;
     bool backward_ = false;
     boundary_counters counters_;
@@ -297,13 +294,9 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     if (set_.largest_radius == 0.0) set_.largest_radius = 1.6 * set_.radius;
     demand(set_.largest_radius > set_.radius, "largest_radius", set_.largest_radius, "above radius",
            "0 takes 1.6 radius.");
-    if (set_.column_bottom == set_.column_top) set_.column_bottom = set_.bottom, set_.column_top = set_.top;
-    demand(set_.column_bottom <= set_.bottom, "column_bottom", set_.column_bottom, "at most bottom", "");
-    demand(set_.column_top >= set_.top, "column_top", set_.column_top, "at least top", "");
 
     rings_ = Unit == moving_unit::wall ? 1 : set_.rings;
     around_ = set_.tiles_per_ring;
-    tile_height_ = (set_.column_top - set_.column_bottom) / rings_;
     half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
     dir_ = directions(around_);
     platens_ = {set_.bottom, set_.top, {}};
@@ -311,11 +304,15 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     apothem_.assign(tiles, set_.radius);
     velocity_.assign(tiles, 0.0);
     visible_.resize(tiles);
-    covered_.resize(index(rings_));
-    ring_area_.resize(index(rings_));
     ring_smallest_.resize(index(rings_));
-    if constexpr (Unit == moving_unit::tile) latch_.assign(2 * tiles, 0);
-    if constexpr (Unit == moving_unit::ring) latch_.assign(index(rings_), 0);
+    if constexpr (Unit != moving_unit::wall) {
+        const int columns = units_around();
+        for (int i = 0; i < columns; ++i) chains_.push_back({i, around_, rings_, false, i * rings_, set_.largest_gap});
+        if constexpr (Unit == moving_unit::tile)
+            for (int k = 0; k < rings_; ++k)
+                chains_.push_back({k * around_, 1, around_, true, columns * rings_ + k * around_, set_.largest_step});
+        latch_.assign(Unit == moving_unit::tile ? 2 * tiles : index(rings_), 0);
+    }
     refresh();
     check_state();
 }
@@ -333,6 +330,7 @@ double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, do
     const double inner = least - reach;
     if (inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner) return deepest;
 
+    constexpr double infinite = std::numeric_limits<double>::infinity();
     std::array<double, max_slabs> overlap;
     const auto look_at =
         [&](int i) { // the tiles of column i; false where even the nearest of all rings is out of reach
@@ -344,8 +342,8 @@ double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, do
                 const half_slab h{nx,
                                   ny,
                                   apothem_[j] - velocity_[j] * ahead,
-                                  k == covered_first_ ? -std::numeric_limits<double>::infinity() : low_edge(k),
-                                  k == covered_last_ ? std::numeric_limits<double>::infinity() : low_edge(k + 1),
+                                  k == 0 ? -infinite : low_edge(k) + edge_velocity(k) * ahead,
+                                  k + 1 == rings_ ? infinite : low_edge(k + 1) + edge_velocity(k + 1) * ahead,
                                   static_cast<std::int32_t>(j) + first_lateral_facet};
                 const double depth = r - separate(h, x).distance;
                 if (depth <= -margin) continue;
@@ -372,62 +370,20 @@ double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, do
 }
 
 template <moving_unit Unit> void faceted_cylinder<Unit>::refresh() {
-    covered_first_ = rings_;
-    covered_last_ = -1;
-    volume_ = lateral_area_ = 0.0;
+    double around = 0.0, area = 0.0; // summed over rings
     for (int k = 0; k < rings_; ++k) {
         const auto ring = std::span<const double>(apothem_).subspan(tile(k, 0), index(around_));
         const double smallest = *std::min_element(ring.begin(), ring.end());
-        double around = 0.0;
-        double area = 0.0;
         for (int i = 0; i < around_; ++i) {
             const interval seen = visible(dir_, ring, i, half_width_, smallest);
             visible_[tile(k, i)] = seen;
             around += seen.width();
             area += 0.5 * seen.width() * ring[index(i)];
         }
-        constexpr double infinite = std::numeric_limits<double>::infinity();
-        const double height =
-            platens_.covered(k == 0 ? -infinite : low_edge(k), k + 1 == rings_ ? infinite : low_edge(k + 1));
-        if (height > 0.0) {
-            covered_first_ = std::min(covered_first_, k);
-            covered_last_ = k;
-        }
         ring_smallest_[index(k)] = smallest;
-        ring_area_[index(k)] = area;
-        covered_[index(k)] = height;
-        volume_ += area * height;
-        lateral_area_ += around * height;
     }
-    if (covered_last_ < 0) covered_first_ = covered_last_ = 0; // platens met: check_state() stops the run
-    choose_active();
-}
-
-template <moving_unit Unit> void faceted_cylinder<Unit>::choose_active() {
-    const double least = std::max(0.1 * tile_height_, set_.smallest_radius);
-    int first = covered_first_;
-    int last = covered_last_;
-    while (first < last && covered_[index(first)] < least) ++first;
-    while (last > first && covered_[index(last)] < least) --last;
-    if (first == active_first_ && last == active_last_) return;
-    active_first_ = first;
-    active_last_ = last;
-    chains_.clear();
-    if constexpr (Unit == moving_unit::wall) return;
-    const int count = last - first + 1;
-    const int columns = units_around();
-    const double limit = set_.largest_gap;
-    for (int i = 0; i < columns; ++i)
-        chains_.push_back({first * around_ + i, around_, count, false, i * rings_ + first, limit});
-    const int rings_from = columns * rings_;
-    if constexpr (Unit == moving_unit::tile)
-        for (int k = first; k <= last; ++k)
-            chains_.push_back({k * around_, 1, around_, true, rings_from + k * around_, set_.largest_step});
-    // a latch must not outlive its pair's time under control
-    std::vector<std::uint8_t> kept(latch_.size(), 0);
-    for (const control::chain& c : chains_)
-        for (int j = 0; j < c.pairs(); ++j) kept[index(c.first_latch + j)] = latch_[index(c.first_latch + j)];
-    latch_ = kept;
+    volume_ = area * tile_height();
+    lateral_area_ = around * tile_height();
 }
 
 template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
@@ -450,10 +406,9 @@ void faceted_cylinder<Unit>::collect(std::span<const facet_load> loads, std::vec
     const int per_ring = units_around();
     units.assign(index(rings_) * index(per_ring), {});
     for (int k = 0; k < rings_; ++k) {
-        const int owner = std::clamp(k, active_first_, active_last_);
         for (int i = 0; i < around_; ++i) {
             const int facet = first_lateral_facet + k * around_ + i;
-            unit_load& u = units[index(owner * per_ring + (per_ring == 1 ? 0 : i))];
+            unit_load& u = units[index(k * per_ring + (per_ring == 1 ? 0 : i))];
             const facet_load& l = loads[index(facet)];
             u.load.force += l.force;
             u.load.stiffness += l.stiffness;
@@ -469,14 +424,18 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
     check(d.platens, "drives.platens");
     check(d.lateral, "drives.lateral");
     using mode = drive::mode;
-    for (int f = 0; f < 2; ++f) {
-        double& v = platens_.velocity[index(f)];
-        if (d.platens.how == mode::servo)
-            v = control::inward_velocity({d.platens.value * section(), loads[index(f)].force, loads[index(f)].stiffness,
-                                          set_.contact_stiffness_floor, dt, d.platens.gain, d.platens.max_speed});
-        else
-            v = d.platens.how == mode::velocity ? d.platens.value : 0.0;
-    }
+    // Both platens move alike, on the mean of their forces. Ledges of the wall may take up a
+    // difference between them; servos of their own would then chase each other along the axis, with all rings, for
+    // ever.
+    const facet_load& low = loads[bottom_platen];
+    const facet_load& high = loads[top_platen];
+    const double closing =
+        d.platens.how == mode::servo
+            ? control::inward_velocity({d.platens.value * section(), 0.5 * (low.force + high.force),
+                                        0.5 * (low.stiffness + high.stiffness), set_.contact_stiffness_floor, dt,
+                                        d.platens.gain, d.platens.max_speed})
+            : (d.platens.how == mode::velocity ? d.platens.value : 0.0);
+    platens_.velocity = {closing, closing};
     if (d.lateral.how == mode::servo) {
         collect(loads, units_);
         servo_wall(d.lateral, dt, couplings);
@@ -484,7 +443,6 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
     } else {
         std::fill(velocity_.begin(), velocity_.end(), d.lateral.how == mode::velocity ? d.lateral.value : 0.0);
     }
-    follow(d.lateral, dt);
     lateral_speed_ = 0.0;
     for (const double v : velocity_) lateral_speed_ = std::max(lateral_speed_, std::abs(v));
 }
@@ -493,7 +451,7 @@ template <moving_unit Unit>
 void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<const coupling> couplings) {
     const int per_ring = units_around();
     group_.reset(units_.size());
-    for (int k = active_first_; k <= active_last_; ++k)
+    for (int k = 0; k < rings_; ++k)
         for (int i = 0; i < per_ring; ++i) {
             const std::size_t at = index(k * per_ring + i);
             const unit_load& u = units_[at];
@@ -503,12 +461,11 @@ void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<con
         }
     const auto unit_of = [&](std::int32_t facet) {
         const int j = facet - first_lateral_facet;
-        const int ring = std::clamp(j / around_, active_first_, active_last_);
-        return index(ring * per_ring + (per_ring == 1 ? 0 : j % around_));
+        return index(j / around_ * per_ring + (per_ring == 1 ? 0 : j % around_));
     };
     for (const coupling& c : couplings) group_.couple(unit_of(c.a), unit_of(c.b), c.stiffness);
     group_.solve();
-    for (int k = active_first_; k <= active_last_; ++k) {
+    for (int k = 0; k < rings_; ++k) {
         for (int i = 0; i < per_ring; ++i) {
             const unit_load& u = units_[index(k * per_ring + i)];
             const double v =
@@ -547,19 +504,8 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::control_gaps() {
     if (counters_.latched_pairs == 0) return;
     control::control_gaps(chains_, set_.gaps, apothem_, velocity_, latch_, backward_, counters_.gaps);
     if constexpr (Unit == moving_unit::ring) // the chain runs along the first tiles of the rings
-        for (int k = active_first_; k <= active_last_; ++k)
+        for (int k = 0; k < rings_; ++k)
             for (int i = 1; i < around_; ++i) velocity_[tile(k, i)] = velocity_[tile(k, 0)];
-}
-
-template <moving_unit Unit> void faceted_cylinder<Unit>::follow(const drive& d, double dt) {
-    for (int k = 0; k < rings_; ++k) {
-        const int leader = std::clamp(k, active_first_, active_last_);
-        if (leader == k) continue;
-        for (int i = 0; i < around_; ++i) {
-            const double apart = apothem_[tile(k, i)] - apothem_[tile(leader, i)];
-            velocity_[tile(k, i)] = velocity_[tile(leader, i)] + std::clamp(apart / dt, -d.max_speed, d.max_speed);
-        }
-    }
 }
 
 template <moving_unit Unit>
@@ -569,7 +515,7 @@ double faceted_cylinder<Unit>::confining_rms(std::span<const facet_load> loads, 
     const int per_ring = units_around();
     double sum = 0.0;
     int count = 0;
-    for (int k = active_first_; k <= active_last_; ++k)
+    for (int k = 0; k < rings_; ++k)
         for (int i = 0; i < per_ring; ++i) {
             if (Unit == moving_unit::tile && hidden(k, i)) continue;
             const unit_load& u = units[index(k * per_ring + i)];
@@ -594,9 +540,7 @@ std::vector<facet_view> faceted_cylinder<Unit>::view(std::span<const facet_load>
                        -1});
     }
     for (int k = 0; k < rings_; ++k) {
-        if (covered_[index(k)] <= 0.0) continue;
-        const double low = k == covered_first_ ? platens_.bottom : low_edge(k);
-        const double high = k == covered_last_ ? platens_.top : low_edge(k + 1);
+        const double low = low_edge(k), high = low_edge(k + 1);
         for (int i = 0; i < around_; ++i) {
             const std::size_t j = tile(k, i);
             const interval s = visible_[j];

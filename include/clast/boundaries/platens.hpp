@@ -2,7 +2,6 @@
 // The two end platens: rigid, horizontal, unbounded planes (they reach beyond any bulge and pass through tiles).
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include <clast/boundaries/touch.hpp>
@@ -28,8 +27,6 @@ struct platens {
         bottom += velocity[0] * dt;
         top -= velocity[1] * dt;
     }
-    /// Length of the height range [low, high] that lies between the platens (m), >= 0.
-    double covered(double low, double high) const { return std::max(0.0, std::min(high, top) - std::max(low, bottom)); }
 
     template <class A> void archive(A& a) { a(bottom, top, velocity); }
 };

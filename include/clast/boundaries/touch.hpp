@@ -85,11 +85,14 @@ struct coupling {
 struct facet_load {
     double force = 0.0;     ///< component, along the inward normal, of what the facet exerts on grains (N), >= 0
     double stiffness = 0.0; ///< d force / d inward displacement at fixed grains, summed over contacts (N/m)
+    std::array<double, 2>
+        edge{}; ///< vertical force (N, upward positive) of a lateral facet's lower and upper edge on grains
     std::int32_t contacts = 0;
 
     /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
     constexpr void add(const touch& t, double force_on_pebble, double k) {
         force += force_on_pebble * t.along;
+        if (t.facet >= first_lateral_facet) edge[t.normal.z < 0.0 ? 0 : 1] += force_on_pebble * t.normal.z;
         stiffness += k * t.along * t.along;
         ++contacts;
     }
