@@ -3,10 +3,7 @@
 
 file(GLOB_RECURSE CLAST_HEADERS CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/clast/*.hpp")
 
-# A project may bring its own Eigen or fmt (FetchContent), so search only for what is not there.
-if(NOT TARGET Eigen3::Eigen)
-    find_package(Eigen3 REQUIRED)
-endif()
+# A project may bring its own fmt (FetchContent), so search only if it is not there.
 if(NOT TARGET fmt::fmt)
     find_package(fmt REQUIRED)
 endif()
@@ -18,7 +15,7 @@ add_library(clast INTERFACE)
 add_library(clast::clast ALIAS clast)
 target_sources(clast INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${CLAST_HEADERS})
 target_compile_features(clast INTERFACE cxx_std_20)
-target_link_libraries(clast INTERFACE Eigen3::Eigen fmt::fmt Threads::Threads)
+target_link_libraries(clast INTERFACE fmt::fmt Threads::Threads)
 
 add_library(clast_fast INTERFACE)
 add_library(clast::fast ALIAS clast_fast)

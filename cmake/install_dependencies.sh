@@ -64,7 +64,6 @@ clast_missing() {
     clast_has_compiler || echo "g++|needed|a C++20 compiler (GCC 12 or Clang 16 are tested)"
     clast_has_cmake || echo "cmake|needed|CMake 3.25 or newer"
     clast_has_build_tool || echo "ninja-build|needed|Ninja (or make)"
-    clast_has_header Eigen/Core eigen3/Eigen/Core || echo "libeigen3-dev|needed|Eigen, linear algebra"
     clast_has_header fmt/format.h || echo "libfmt-dev|needed|fmt, text"
     for group in "$@"; do
         case $group in
@@ -75,7 +74,10 @@ clast_missing() {
             ;;
         esac
         case $group in
-        test) clast_has_header catch2/catch_all.hpp catch2/catch.hpp || echo "catch2|needed|Catch2, tests" ;;
+        test)
+            clast_has_header catch2/catch_all.hpp catch2/catch.hpp || echo "catch2|needed|Catch2, tests"
+            clast_has_header Eigen/Core eigen3/Eigen/Core || echo "libeigen3-dev|needed|Eigen, to compare with in tests"
+            ;;
         benchmark) clast_has_header benchmark/benchmark.h || echo "libbenchmark-dev|needed|Google Benchmark, kernels" ;;
         esac
     done

@@ -143,3 +143,17 @@ TEST_CASE("quaternions: matrix, product, conjugate and length") {
         CHECK(u.w * q.w > -1e-16);
     }
 }
+
+TEST_CASE("the quaternion of a rotation matrix turns as the matrix does, for every axis and angle up to a half turn") {
+    for (const vec3& axis :
+         {vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{0, 0, 1}, unit(vec3{1, -2, 3}), unit(vec3{-1, 1e-9, 1})})
+        for (const double angle : {0.0, 1e-9, 0.3, 1.6, 3.0, 3.14159265358979}) {
+            const mat3 m = matrix(rotation(angle * axis));
+            const quaternion q = turning(m);
+            const mat3 back = matrix(q);
+            double worst = 0.0;
+            for (int i = 0; i < 3; ++i) worst = std::max(worst, norm(back.row[i] - m.row[i]));
+            CHECK(worst < 1e-15);
+            CHECK(q.w >= 0.0);
+        }
+}

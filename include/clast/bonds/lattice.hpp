@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include <clast/bonds/parallel.hpp>
+#include <clast/core/symmetric.hpp>
 #include <clast/grains/shape.hpp>
 
 namespace clast::bonds {
@@ -36,14 +36,14 @@ struct lattice {
     std::vector<double> mass;     ///< per pebble (kg)
     std::vector<double> inertia;  ///< per pebble, 2/5 m r^2 (kg m^2)
     std::vector<vec3> offset;     ///< per pebble, body frame (m)
-    Eigen::MatrixXd pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
+    square_matrix pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
     double highest_frequency = 0.0; ///< largest eigenfrequency with all bonds intact (rad/s)
 
     lattice() = default;
     /// density (kg/m^3) > 0. Throws input_error if bonds join some pebbles but leave others apart: no force could hold
     /// them.
     lattice(const shape& s, const parallel& material, double density) {
-        const auto n = static_cast<Eigen::Index>(s.pebbles.size());
+        const std::size_t n = s.pebbles.size();
         for (const shape_pebble& p : s.pebbles) {
             offset.push_back(p.offset);
             radius.push_back(p.radius);
@@ -61,34 +61,35 @@ struct lattice {
             normal.push_back(unit(across));
             arm.push_back({radius[at(b.a)] + half_gap, radius[at(b.b)] + half_gap});
         }
-        const Eigen::MatrixXd k = stiffness();
-        if (ends.empty()) {
-            pseudo_inverse = Eigen::MatrixXd::Zero(6 * n, 6 * n);
-            return;
-        }
-        Eigen::VectorXd weight(6 * n);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index a = 0; a < 3; ++a) {
-                weight(6 * i + a) = 1.0 / std::sqrt(mass[static_cast<std::size_t>(i)]);
-                weight(6 * i + 3 + a) = 1.0 / std::sqrt(inertia[static_cast<std::size_t>(i)]);
+        pseudo_inverse = square_matrix(6 * n);
+        if (ends.empty()) return;
+        std::vector<double> weight(6 * n);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t a = 0; a < 3; ++a) {
+                weight[6 * i + a] = 1.0 / std::sqrt(mass[i]);
+                weight[6 * i + 3 + a] = 1.0 / std::sqrt(inertia[i]);
             }
         // scaled by the masses, so that forces and moments are of one unit, rigid motions stand out clearly
-        const Eigen::MatrixXd scaled = weight.asDiagonal() * k * weight.asDiagonal();
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
-        const double largest = modes.eigenvalues()(6 * n - 1);
+        square_matrix scaled = stiffness();
+        for (std::size_t i = 0; i < 6 * n; ++i)
+            for (std::size_t j = 0; j < 6 * n; ++j) scaled(i, j) *= weight[i] * weight[j];
+        const principal_system modes = principal_values(std::move(scaled));
+        const double largest = modes.values.back();
         highest_frequency = std::sqrt(largest);
-        Eigen::VectorXd inverse = modes.eigenvalues();
-        for (Eigen::Index i = 0; i < 6 * n; ++i) inverse(i) = inverse(i) > 1e-9 * largest ? 1.0 / inverse(i) : 0.0;
-        pseudo_inverse = weight.asDiagonal() * modes.eigenvectors() * inverse.asDiagonal() *
-                         modes.eigenvectors().transpose() * weight.asDiagonal();
+        for (std::size_t k = 0; k < 6 * n; ++k) {
+            if (modes.values[k] <= 1e-9 * largest) continue;
+            for (std::size_t i = 0; i < 6 * n; ++i)
+                for (std::size_t j = 0; j < 6 * n; ++j)
+                    pseudo_inverse(i, j) +=
+                        weight[i] * modes.axes(i, k) * modes.axes(j, k) * weight[j] / modes.values[k];
+        }
     }
 
     std::size_t size() const { return offset.size(); }
 
     /// Bond stiffness matrix, built by the bond's own law from unit displacements.
-    Eigen::MatrixXd stiffness() const {
-        const auto n = static_cast<Eigen::Index>(size());
-        Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+    square_matrix stiffness() const {
+        square_matrix k(6 * size());
         for (std::size_t e = 0; e < ends.size(); ++e) {
             const std::size_t side[2] = {at(ends[e].a), at(ends[e].b)};
             for (int moving = 0; moving < 2; ++moving)
@@ -99,10 +100,10 @@ struct lattice {
                     stretch(bond[e], s, normal[e],
                             relative_velocity(normal[e], arm[e].a, arm[e].b, v[0], w[0], v[1], w[1]), w[1] - w[0], 1.0);
                     const wrench load = loads(s, normal[e], arm[e].a, arm[e].b);
-                    const auto column = static_cast<Eigen::Index>(6 * side[moving]) + axis;
+                    const std::size_t column = 6 * side[moving] + static_cast<std::size_t>(axis);
                     for (int r = 0; r < 3; ++r) {
-                        const auto a = static_cast<Eigen::Index>(6 * side[0]) + r;
-                        const auto b = static_cast<Eigen::Index>(6 * side[1]) + r;
+                        const std::size_t a = 6 * side[0] + static_cast<std::size_t>(r);
+                        const std::size_t b = 6 * side[1] + static_cast<std::size_t>(r);
                         k(a, column) -= load.force_a[r];
                         k(a + 3, column) -= load.moment_a[r];
                         k(b, column) += load.force_a[r];
@@ -133,28 +134,23 @@ struct lattice {
         }
         const vec3 linear = force / total;
         const vec3 gyroscopic = cross(spin, tensor * spin);
-        Eigen::Matrix3d inertia_matrix;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) inertia_matrix(i, j) = tensor(i, j);
-        const vec3 net = moment - gyroscopic;
-        const Eigen::Vector3d a = inertia_matrix.ldlt().solve(Eigen::Vector3d(net.x, net.y, net.z));
-        const vec3 angular{a(0), a(1), a(2)};
-        Eigen::VectorXd f(static_cast<Eigen::Index>(6 * n));
+        const vec3 angular = solve(tensor, moment - gyroscopic);
+        std::vector<double> f(6 * n);
         for (std::size_t i = 0; i < n; ++i) {
             const vec3 acceleration =
                 linear + cross(angular, from_centre[i]) + cross(spin, cross(spin, from_centre[i]));
             const vec3 rest = rotate_back(q, load[i].force - mass[i] * acceleration);
             const vec3 turn_rest = rotate_back(q, load[i].moment - inertia[i] * angular);
-            for (int k = 0; k < 3; ++k) {
-                f(static_cast<Eigen::Index>(6 * i) + k) = rest[k];
-                f(static_cast<Eigen::Index>(6 * i) + 3 + k) = turn_rest[k];
+            for (std::size_t k = 0; k < 3; ++k) {
+                f[6 * i + k] = rest[static_cast<int>(k)];
+                f[6 * i + 3 + k] = turn_rest[static_cast<int>(k)];
             }
         }
-        const Eigen::VectorXd u = pseudo_inverse * f;
+        const std::vector<double> u = pseudo_inverse * f;
         std::vector<state> born(ends.size());
-        const auto part = [&](std::size_t pebble, int first) {
-            const auto k = static_cast<Eigen::Index>(6 * pebble) + first;
-            return vec3{u(k), u(k + 1), u(k + 2)};
+        const auto part = [&](std::size_t pebble, std::size_t first) {
+            const double* at = u.data() + 6 * pebble + first;
+            return vec3{at[0], at[1], at[2]};
         };
         for (std::size_t e = 0; e < ends.size(); ++e) {
             const std::size_t i = at(ends[e].a), j = at(ends[e].b);

@@ -97,6 +97,21 @@ constexpr mat3 matrix(const quaternion& q) {
              {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x)},
              {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}}};
 }
+/// Unit quaternion of a rotation matrix (orthonormal, right-handed), w >= 0. Shepperd 1978: from the largest component.
+inline quaternion turning(const mat3& m) {
+    const double t = trace(m);
+    quaternion q;
+    if (t >= m(0, 0) && t >= m(1, 1) && t >= m(2, 2))
+        q = {1.0 + t, m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+    else if (m(0, 0) >= m(1, 1) && m(0, 0) >= m(2, 2))
+        q = {m(2, 1) - m(1, 2), 1.0 + 2.0 * m(0, 0) - t, m(0, 1) + m(1, 0), m(0, 2) + m(2, 0)};
+    else if (m(1, 1) >= m(2, 2))
+        q = {m(0, 2) - m(2, 0), m(0, 1) + m(1, 0), 1.0 + 2.0 * m(1, 1) - t, m(1, 2) + m(2, 1)};
+    else
+        q = {m(1, 0) - m(0, 1), m(0, 2) + m(2, 0), m(1, 2) + m(2, 1), 1.0 + 2.0 * m(2, 2) - t};
+    q = unit(q);
+    return q.w < 0.0 ? quaternion{-q.w, -q.x, -q.y, -q.z} : q;
+}
 /// World components of a vector given in the body frame.
 constexpr vec3 rotate(const quaternion& q, const vec3& a) {
     const vec3 u{q.x, q.y, q.z};

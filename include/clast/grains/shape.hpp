@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <clast/core/errors.hpp>
+#include <clast/core/symmetric.hpp>
 #include <clast/core/vector.hpp>
 
 namespace clast {
@@ -121,37 +121,36 @@ inline principal_frame principal_axes(const mat3& tensor) {
         std::max({tensor(0, 0), tensor(1, 1), tensor(2, 2)}) - std::min({tensor(0, 0), tensor(1, 1), tensor(2, 2)});
     if (off <= same * size && spread <= same * size) return {{}, 3};
 
-    Eigen::Matrix3d m;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) m(i, j) = tensor(i, j);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
-    const Eigen::Vector3d moment = solver.eigenvalues(); // ascending
-    Eigen::Matrix3d axes = solver.eigenvectors();
-
-    const auto fix_sign = [](Eigen::Vector3d v) {
-        Eigen::Index largest = 0;
-        v.cwiseAbs().maxCoeff(&largest);
-        return Eigen::Vector3d(v[largest] < 0.0 ? -v : v);
+    square_matrix m(3);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) m(i, j) = tensor(static_cast<int>(i), static_cast<int>(j));
+    const principal_system system = principal_values(m);
+    const std::vector<double>& moment = system.values; // ascending
+    const auto axis_of = [&](std::size_t k) { return vec3{system.axes(0, k), system.axes(1, k), system.axes(2, k)}; };
+    const auto extreme = [](const vec3& v, bool largest) {
+        int at = 0;
+        for (int k = 1; k < 3; ++k)
+            if (largest ? std::abs(v[k]) > std::abs(v[at]) : std::abs(v[k]) < std::abs(v[at])) at = k;
+        return at;
     };
+    const auto fix_sign = [&](const vec3& v) { return v[extreme(v, true)] < 0.0 ? -v : v; };
     const bool low = moment[1] - moment[0] <= same * size;
     const bool high = moment[2] - moment[1] <= same * size;
     int equal = 1;
+    vec3 axis[3];
     if (low || high) {
         // a body of revolution: its axis comes first, the other two are the given axes as far as possible
         equal = 2;
-        const Eigen::Vector3d axis = fix_sign(axes.col(low ? 2 : 0));
-        Eigen::Index least = 0;
-        axis.cwiseAbs().minCoeff(&least);
-        const Eigen::Vector3d given = Eigen::Vector3d::Unit(least);
-        axes.col(0) = axis;
-        axes.col(1) = (given - given.dot(axis) * axis).normalized();
+        axis[0] = fix_sign(axis_of(low ? 2 : 0));
+        vec3 given;
+        given[extreme(axis[0], false)] = 1.0;
+        axis[1] = unit(reject(given, axis[0]));
     } else {
-        axes.col(0) = fix_sign(axes.col(0));
-        axes.col(1) = fix_sign(axes.col(1));
+        axis[0] = fix_sign(axis_of(0));
+        axis[1] = fix_sign(axis_of(1));
     }
-    axes.col(2) = axes.col(0).cross(axes.col(1));
-    const Eigen::Quaterniond q(axes);
-    return {unit(quaternion{q.w(), q.x(), q.y(), q.z()}), equal};
+    axis[2] = cross(axis[0], axis[1]);
+    return {turning(transpose(mat3{{axis[0], axis[1], axis[2]}})), equal};
 }
 
 inline void check_diameter(double diameter) {
