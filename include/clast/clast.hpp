@@ -2,10 +2,13 @@
 // Everything that a simulator needs. Files (CSV, ParaView, checkpoints, plots) are in clast/io and included apart.
 #pragma once
 
+#include <clast/boundaries/box.hpp>
+#include <clast/boundaries/periodic_cell.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear.hpp>
+#include <clast/contacts/linear_dashpot.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/criteria/one_of.hpp>
 #include <clast/engine/engine.hpp>

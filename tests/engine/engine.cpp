@@ -260,7 +260,7 @@ TEST_CASE("a velocity that is no number stops the run with the name of the body"
         what = error.details.what, where = error.details.where, when = error.details.when;
         why = error.details.why, advice = error.details.advice;
     }
-    CHECK(what.find("body 1") != std::string::npos);
+    CHECK(what.find("grain 1") != std::string::npos);
     CHECK(where == "grain 1");
     CHECK(when.find("step 2") != std::string::npos);
     CHECK(!why.empty());

@@ -113,6 +113,7 @@ TEST_CASE("where a list is cut into strips does not change a bit") {
 TEST_CASE("a contact asleep behind a bond keeps its history and exerts nothing") {
     scene s(10);
     s.list.history[4] = {1.0, 2.0, 3.0};
+    s.list.bonded.assign(10, 0);
     s.list.bonded[4] = 1;
     strip<linear> work;
     evaluate(s.list, 0, 10, s.pebbles.data(), s.law, 1e-5, work, as_is);

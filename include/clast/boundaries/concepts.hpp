@@ -77,6 +77,15 @@ concept saved = std::copyable<B> && requires(B& b, detail::any_archive& a) {
     b.archive(a);
 };
 
+/// A periodic cell around the origin: edge lengths (m) and their rates (m/s). Every `look` steps it is told the stress.
+template <class B>
+concept periodic = requires(B& b, const B& seen, vec3 stress, vec3 modulus, double dt) {
+    { seen.edges() } -> std::convertible_to<vec3>;
+    { seen.edge_speeds() } -> std::convertible_to<vec3>;
+    { B::look } -> std::convertible_to<int>;
+    b.observe(stress, modulus, dt);
+};
+
 /// A boundary as the engine uses it.
 template <class B>
 concept boundary =

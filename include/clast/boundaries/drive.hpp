@@ -37,7 +37,7 @@ inline void check(const drive& d, const char* name) {
                           "A facet cannot pull on grains.");
     if (!(d.max_speed > 0.0))
         throw input_error(std::string(name) + ".max_speed", fmt::format("{} m/s", d.max_speed), "> 0",
-                          "Take 3 times the axial strain rate times the specimen radius, or more.");
+                          "Take 6 times the axial strain rate times the specimen radius, or more.");
     if (!(d.gain > 0.0 && d.gain < 1.0))
         throw input_error(std::string(name) + ".gain", fmt::format("{}", d.gain), "between 0 and 1",
                           "0.5 is the default; from 1 on the servo is unstable.");

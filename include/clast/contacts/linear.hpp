@@ -16,6 +16,40 @@ struct piece {
     double friction;         ///< coefficient, >= 0
 };
 
+/// Shear force on i at the end of the last step (N): what contacts with a tangential spring remember.
+struct shear_history {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+};
+
+/// Tangential spring with a slider: turns the shear force of the last step into the new contact plane and with the
+/// spin, keeping its size, adds -k_s u and cuts it at `limit` (N, >= 0). Answers with the shear force and the work of
+/// the mean shear force on the slip (trial - F) / k_s; `fn` (N, compression positive) is added along the normal.
+template <class T>
+response<T> tangential_spring(const overlap<T>& o, const motion<T>& m, shear_history& h, T fn, T ks, T limit) {
+    using std::sqrt;
+    // the turn must not do work
+    const T along = h.x * o.nx + h.y * o.ny + h.z * o.nz;
+    const T ax = h.x - along * o.nx, ay = h.y - along * o.ny, az = h.z - along * o.nz;
+    T sx = ax + m.spin * (o.ny * az - o.nz * ay);
+    T sy = ay + m.spin * (o.nz * ax - o.nx * az);
+    T sz = az + m.spin * (o.nx * ay - o.ny * ax);
+    const T before = h.x * h.x + h.y * h.y + h.z * h.z;
+    const T after = sx * sx + sy * sy + sz * sz;
+    const T keep = after > 0.0 ? sqrt(before / after) : T(0.0);
+    sx *= keep, sy *= keep, sz *= keep;
+    // spring, then slider
+    const T px = sx - ks * m.ux, py = sy - ks * m.uy, pz = sz - ks * m.uz;
+    const T trial = sqrt(px * px + py * py + pz * pz);
+    const T cut = trial > limit ? limit / trial : T(1.0);
+    h.x = cut * px, h.y = cut * py, h.z = cut * pz;
+    const T half_compliance = ks > 0.0 ? 0.5 / ks : T(0.0);
+    const T slip =
+        half_compliance * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z));
+    return {h.x - fn * o.nx, h.y - fn * o.ny, h.z - fn * o.nz, slip};
+}
+
 /// Linear contact with Coulomb friction and an incremental tangential spring.
 ///
 /// F_n = k_n max(overlap, 0). The shear force turns with the contact plane (its size is kept) and with the mean spin
@@ -28,12 +62,7 @@ struct linear {
     double ks = 0.0; ///< shear stiffness of the contact (N/m)
     double mu = 0.0; ///< friction coefficient
 
-    /// Shear force on i at the end of the last step (N).
-    struct history {
-        double x = 0.0;
-        double y = 0.0;
-        double z = 0.0;
-    };
+    using history = shear_history;
 
     /// Contact of two pieces in series, with the smaller friction.
     static constexpr linear between(const piece& a, const piece& b) {
@@ -44,29 +73,8 @@ struct linear {
 
     template <class T>
     response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double /*dt*/) const {
-        using std::sqrt;
         const T fn = kn * (o.depth > 0.0 ? o.depth : T(0.0));
-        // turn the old shear force into the new contact plane and with the spin, keeping its size: it must not do work
-        const T along = h.x * o.nx + h.y * o.ny + h.z * o.nz;
-        const T ax = h.x - along * o.nx, ay = h.y - along * o.ny, az = h.z - along * o.nz;
-        T sx = ax + m.spin * (o.ny * az - o.nz * ay);
-        T sy = ay + m.spin * (o.nz * ax - o.nx * az);
-        T sz = az + m.spin * (o.nx * ay - o.ny * ax);
-        const T before = h.x * h.x + h.y * h.y + h.z * h.z;
-        const T after = sx * sx + sy * sy + sz * sz;
-        const T keep = after > 0.0 ? sqrt(before / after) : T(0.0);
-        sx *= keep, sy *= keep, sz *= keep;
-        // spring, then slider
-        const T px = sx - ks * m.ux, py = sy - ks * m.uy, pz = sz - ks * m.uz;
-        const T trial = sqrt(px * px + py * py + pz * pz);
-        const T limit = mu * fn;
-        const T cut = trial > limit ? limit / trial : T(1.0);
-        h.x = cut * px, h.y = cut * py, h.z = cut * pz;
-        // work of the mean shear force on the slip (trial - F) / k_s
-        const T slip = ks > 0.0
-                           ? 0.5 * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z)) / ks
-                           : T(0.0);
-        return {h.x - fn * o.nx, h.y - fn * o.ny, h.z - fn * o.nz, slip};
+        return tangential_spring(o, m, h, fn, T(ks), mu * fn);
     }
 
     /// Elastic energy of both springs (J).

@@ -40,6 +40,13 @@ struct pebble_pair {
     constexpr auto operator<=>(const pebble_pair&) const = default;
 };
 
+/// The 27 images of a periodic cell: number (x+1) + 3 (y+1) + 9 (z+1) for a shift by x, y, z edges of -1, 0 or 1.
+inline constexpr std::uint8_t no_shift = 13;
+constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
+    const auto steps = [](std::size_t digit) { return static_cast<double>(digit) - 1.0; };
+    return scale(edges, {steps(image % 3), steps(image / 3 % 3), steps(image / 9)});
+}
+
 /// Half list sorted by (i, j); an engine may bring contacts that threads share to the front. An empty history
 /// (frictionless law) takes no memory.
 template <class History> struct contact_list {
@@ -47,15 +54,17 @@ template <class History> struct contact_list {
 
     std::vector<pebble_pair> pairs;
     std::vector<History> history;     ///< empty if the law has none
-    std::vector<std::uint8_t> bonded; ///< 1: an intact bond carries this pair and the contact is asleep
+    std::vector<std::uint8_t> image;  ///< in a periodic cell: which image of j is meant (image_shift); else empty
+    std::vector<std::uint8_t> bonded; ///< 1: an intact bond carries this pair and the contact is asleep; empty: none
     std::vector<force_row> rows;
 
     std::size_t size() const { return pairs.size(); }
     void resize_rows() {
         rows.assign(pairs.size(), {});
         if constexpr (remembers) history.resize(pairs.size());
-        bonded.assign(pairs.size(), 0);
+        bonded.clear();
     }
+    bool is_asleep(std::size_t k) const { return !bonded.empty() && bonded[k] != 0; }
     /// Position of a pair, or size() if it is not listed.
     std::size_t find(const pebble_pair& p) const {
         const auto it = std::lower_bound(pairs.begin(), pairs.end(), p);
@@ -73,12 +82,14 @@ template <class History> struct contact_list {
             auto old = v;
             for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
         };
-        permute(pairs), permute(bonded), permute(rows);
+        permute(pairs), permute(rows);
         if constexpr (remembers) permute(history);
+        if (!bonded.empty()) permute(bonded);
+        if (!image.empty()) permute(image);
     }
 
     template <class A> void archive(A& a) {
-        a(pairs, bonded);
+        a(pairs, image, bonded);
         if constexpr (remembers) a(history);
         rows.resize(pairs.size()); // written anew by the next step
     }
@@ -98,15 +109,13 @@ class incidence {
     };
 
     incidence() = default;
-    /// For bodies 0 to n - 1. `wall` holds what has a member `pebble`; owner: body of a pebble.
-    template <class History, class Wall>
-    incidence(std::size_t n, const contact_list<History>& list, const Wall& wall,
-              const std::vector<std::int32_t>& owner)
-        : start_(n + 1, 0) {
+    /// For bodies 0 to n - 1. `wall` holds what has a member `pebble`; body_of(pebble): its body.
+    template <class History, class Wall, class F>
+    incidence(std::size_t n, const contact_list<History>& list, const Wall& wall, F&& body_of) : start_(n + 1, 0) {
         const auto each = [&](auto&& f) {
             std::uint32_t row = 0;
             const auto put = [&](std::uint32_t side, std::int32_t pebble) {
-                f(static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]), entry{row << 1 | side, pebble});
+                f(body_of(pebble), entry{row << 1 | side, pebble});
             };
             for (const pebble_pair& p : list.pairs) put(0, p.i), put(1, p.j), ++row;
             for (const auto& w : wall) put(0, w.pebble), ++row;

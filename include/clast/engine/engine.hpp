@@ -113,17 +113,20 @@ template <triaxial_policies P> class engine {
     using contact = typename P::contact;
     using history = typename contact::history;
     using boundary_type = typename P::boundary;
+    using specimen_type = typename P::specimen;
     using settings_type = engine_settings<P>;
     static constexpr bool breakable = P::replacement::makes_bonds;
+    static constexpr bool periodic = boundaries::periodic<boundary_type>;
+    static_assert(!(periodic && breakable), "clusters in a periodic cell are not made yet");
     static constexpr bool has_criterion = P::breakage::evaluated;
 
     settings_type settings;
-    specimen grains;
+    specimen_type grains;
     boundary_type boundary;
     boundaries::drives drives;
     bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
 
-    engine(settings_type s, specimen sp, boundary_type b)
+    engine(settings_type s, specimen_type sp, boundary_type b)
         : settings(std::move(s)), grains(std::move(sp)), boundary(std::move(b)) {
         if constexpr (has_criterion) {
             using criteria::needs;
@@ -146,9 +149,9 @@ template <triaxial_policies P> class engine {
             grains.motion.resize(grains.grain_count() + grains.pebble_count());
             grains.losses.resize(grains.motion.size());
         }
-        for (const auto& g : grains.shapes) smallest_mass_ = std::min(smallest_mass_, grains.density * g.volume);
+        smallest_mass_ = grains.smallest_mass();
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        needed_.assign(grains.pebble_count(), 0);
+        if constexpr (specimen_type::turns) needed_.assign(grains.pebble_count(), 0);
         totals_.initial_energy = kinetic_energy();
         rebuild();
         estimate_step(true);
@@ -165,6 +168,9 @@ template <triaxial_policies P> class engine {
         settings.run.for_each(slow_wall_.size(), [&](std::size_t k) { evaluate_wall(slow_wall_[k], dt_, 0.0); });
         control();
         const double moved = sweep();
+        if constexpr (periodic) add_work_of_images();
+        if constexpr (periodic)
+            if (totals_.steps % boundary_type::look == 0) observe_stress();
         finish_boundary();
         if constexpr (breakable) {
             broken_.lag = 0.5 * dt_;
@@ -206,10 +212,9 @@ template <triaxial_policies P> class engine {
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
     /// Sets the velocity of a clump's centre (m/s).
-    void set_velocity(std::size_t grain_id, const vec3& v) {
+    void set_velocity(std::size_t grain_id, const vec3& v) requires(specimen_type::turns) {
         grains.motion[grain_id].v = v;
-        place(grain_id, 0);
-        place(grain_id, 1);
+        grains.place(grain_id, [](std::size_t) { return true; });
     }
     /// To be called after velocities were set by hand, so that the audit knows of their energy.
     void count_initial_energy() { totals_.initial_energy = kinetic_energy(); }
@@ -224,8 +229,8 @@ template <triaxial_policies P> class engine {
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(slow_, slow_wall_, slow_of_, reference_, reference_turn_, needed_, wall_travel_);
-        if constexpr (breakable) a(fast_, fast_wall_, fast_of_, broken_);
+        a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_);
+        if constexpr (breakable) a(fast_, fast_wall_, fast_of_, ball_reference_, broken_);
         split_ranges();                                                  // as the threads of this run ask for
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
         work_loads_.resize(loads_.size());
@@ -238,6 +243,20 @@ template <triaxial_policies P> class engine {
     template <class F> void each_contact(F&& f) const {
         slow_.each_sorted(slow_shared_, [&](std::size_t k) { f(slow_.rows[k], slow_.pairs[k]); });
         fast_.each_sorted(0, [&](std::size_t k) { f(fast_.rows[k], fast_.pairs[k]); });
+    }
+    /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
+    /// faces of a periodic cell, too.
+    vec3 branch_of(const force_row& row, const pebble_pair& pair) const {
+        const pebble_motion& i = grains.pebbles[at(pair.i)];
+        const pebble_motion& j = grains.pebbles[at(pair.j)];
+        const vec3 between = (i.radius + j.radius - row.depth) * row.normal;
+        if constexpr (specimen_type::turns) return i.x - centre_of(pair.i) + between + centre_of(pair.j) - j.x;
+        return between;
+    }
+    /// Centre of the body of a pebble (m).
+    vec3 centre_of(std::int32_t pebble) const {
+        const std::size_t body = grains.body_of(pebble);
+        return body < grains.body_count() ? grains.centre(body) : grains.pebbles[at(pebble)].x;
     }
     /// A pebble at the boundary: what touches it and the forces that it takes (N).
     struct wall_row {
@@ -254,12 +273,8 @@ template <triaxial_policies P> class engine {
         for (const wall_row& w : fast_wall_) f(w);
     }
     double kinetic_energy() const {
-        double e = settings.run.sum(grains.grain_count(), 0.0, [&](std::size_t g) {
-            if (!grains.is_clump(g)) return 0.0;
-            const grain& one = grains.grains[g];
-            return 0.5 * grains.mass_of(one) * norm2(grains.motion[g].v) +
-                   rotational_energy(grains.turning[g].q, grains.turning[g].l, grains.inverse_inertia(one));
-        });
+        double e = settings.run.sum(grains.body_count(), 0.0,
+                                    [&](std::size_t b) { return grains.is_swept(b) ? grains.kinetic_energy(b) : 0.0; });
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls) {
                 const body_motion& m = grains.motion[ball(p)];
@@ -272,9 +287,9 @@ template <triaxial_policies P> class engine {
         double e = 0.0;
         const auto add = [&](const contact_list<history>& list, std::size_t shared) {
             list.each_sorted(shared, [&](std::size_t k) {
-                if (list.bonded[k] != 0) return;
+                if (list.is_asleep(k)) return;
                 const auto& pr = list.pairs[k];
-                const double d = norm(grains.pebbles[at(pr.j)].x - grains.pebbles[at(pr.i)].x);
+                const double d = norm(apart(list, k));
                 const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius;
                 const history none{};
                 const history* h = &none;
@@ -303,9 +318,10 @@ template <triaxial_policies P> class engine {
     }
     /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).
     void place_all() {
-        settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-            if (grains.is_clump(g)) place(g, 0);
-        });
+        if constexpr (specimen_type::turns)
+            settings.run.for_each(grains.body_count(), [&](std::size_t b) {
+                if (grains.is_swept(b)) grains.place(b, [&](std::size_t p) { return needed_[p] == 0; });
+            });
     }
 
   private:
@@ -343,7 +359,30 @@ template <triaxial_policies P> class engine {
                               },
                               4);
     }
-    static void as_is(std::size_t, const pebble_pair&, vec3&, vec3&) {}
+    /// What the sweep does to distance and velocity of pair k of the slow list: nothing but in a periodic cell.
+    auto to_image() const {
+        if constexpr (periodic)
+            return [this](std::size_t k, const pebble_pair&, vec3& d, vec3& v) {
+                d += shift_[slow_.image[k]];
+                v += shift_speed_[slow_.image[k]];
+            };
+        else
+            return [](std::size_t, const pebble_pair&, vec3&, vec3&) {};
+    }
+    void set_shifts() {
+        if constexpr (periodic)
+            for (std::size_t image = 0; image < shift_.size(); ++image) {
+                shift_[image] = image_shift(image, boundary.edges());
+                shift_speed_[image] = image_shift(image, boundary.edge_speeds());
+            }
+    }
+    /// From pebble i to the image of pebble j that pair k of a list means (m).
+    vec3 apart(const contact_list<history>& list, std::size_t k) const {
+        const pebble_pair& p = list.pairs[k];
+        const vec3 d = grains.pebbles[at(p.j)].x - grains.pebbles[at(p.i)].x;
+        if constexpr (periodic) return d + image_shift(list.image[k], boundary.edges());
+        return d;
+    }
 
     void evaluate_wall(wall_row& w, double h, double ahead) const {
         const vec3& x = grains.pebbles[at(w.pebble)].x;
@@ -352,19 +391,28 @@ template <triaxial_policies P> class engine {
         w.force = {}, w.lateral = 0.0, w.platen = {};
         if (w.touch.size == 0) return;
         // facets are frictionless: the law sees no tangential motion and keeps no history
-        const auto push = [&](const contact& law, double depth) {
+        const auto push = [&](const contact& law, double depth, double approach) {
             history none{};
-            return -law(contacts::overlap<double>{0, 0, 1, depth, r, r}, contacts::motion<double>{}, none, h).fz;
+            return -law(contacts::overlap<double>{0, 0, 1, depth, r, r}, contacts::motion<double>{0, 0, 0, 0, approach},
+                        none, h)
+                        .fz;
+        };
+        const vec3& v = grains.pebbles[at(w.pebble)].v;
+        const auto closing = [&](const boundaries::touch& t) {
+            return t.along * boundary.velocity(t.facet) - dot(v, t.normal);
         };
         const vec3 u = boundaries::lateral_push(w.touch);
         const double way = norm(u);
         if (way > 0.0) {
-            w.lateral = push(settings.lateral_contact, way);
+            double approach = 0.0; // rate of the way out: that of each facet by its share
+            for (const boundaries::touch& t : w.touch)
+                if (t.facet >= boundaries::first_lateral_facet) approach += t.depth / way * closing(t);
+            w.lateral = push(settings.lateral_contact, way, approach);
             w.force += (w.lateral / way) * u;
         }
         for (const boundaries::touch& t : w.touch)
             if (t.facet < boundaries::first_lateral_facet) {
-                const double f = push(settings.platen_contact, t.depth);
+                const double f = push(settings.platen_contact, t.depth, closing(t));
                 w.platen[at(t.facet)] = f;
                 w.force += f * t.normal;
             }
@@ -399,11 +447,6 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    struct load_sum {
-        vec3 force;
-        vec3 moment;
-        double dissipated = 0.0;
-    };
     /// Sum of the rows of one body about its centre, in the order of the list; `ahead` seconds from t_n, like the
     /// centre. Friction losses are booked on side i.
     load_sum sum_rows(const incidence& of, std::size_t body, const contact_list<history>& list,
@@ -412,18 +455,22 @@ template <triaxial_policies P> class engine {
         const std::size_t contacts = list.size();
         for (const incidence::entry& one : of.of(body)) {
             const pebble_motion& p = grains.pebbles[at(one.pebble)];
-            const vec3 arm = p.x - centre + ahead * p.v;
+            vec3 arm;
+            if constexpr (specimen_type::turns) arm = p.x - centre + ahead * p.v;
             if (one.row() < contacts) {
                 const force_row& row = list.rows[one.row()];
                 const double side = one.side();
                 const vec3 f = side * row.force;
                 s.force += f;
-                s.moment += cross(arm + (side * (p.radius - 0.5 * row.depth)) * row.normal, f);
-                if (!one.is_second()) s.dissipated += row.dissipated;
+                if constexpr (specimen_type::turns)
+                    s.moment += cross(arm + (side * (p.radius - 0.5 * row.depth)) * row.normal, f);
+                else
+                    s.moment += (p.radius - 0.5 * row.depth) * cross(row.normal, row.force);
+                s.dissipated += (0.5 + 0.5 * side) * row.dissipated; // on side i
             } else {
                 const wall_row& w = wall[one.row() - contacts];
                 s.force += w.force;
-                s.moment += cross(arm, w.force);
+                if constexpr (specimen_type::turns) s.moment += cross(arm, w.force);
             }
         }
         return s;
@@ -431,49 +478,10 @@ template <triaxial_policies P> class engine {
 
     // ---- integration ----------------------------------------------------------------------------------------------
 
-    /// Kick of a clump by its loads, with local damping of force and moment.
-    void kick_clump(std::size_t g, const load_sum& load, double h) {
-        const grain& one = grains.grains[g];
-        body_motion& m = grains.motion[g];
-        clump_rotation& turn = grains.turning[g];
-        const vec3 df = damping_force(load.force, m.v, settings.damping);
-        const vec3 dm = damping_moment(turn.q, load.moment, m.w, settings.damping);
-        const vec3 v = m.v, w = m.w;
-        m.v += (h / grains.mass_of(one)) * (load.force + df);
-        turn.l += h * (load.moment + dm);
-        const vec3 spin = spin_of(turn.q, turn.l, grains.inverse_inertia(one));
-        grains.losses[g].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + spin));
-        grains.losses[g].friction += load.dissipated;
-    }
-    void drift_clump(std::size_t g, double h) {
-        body_motion& m = grains.motion[g];
-        clump_rotation& turn = grains.turning[g];
-        const turned next = advance_rotation(turn.q, turn.l, grains.inverse_inertia(grains.grains[g]), h);
-        m.x += h * m.v;
-        m.w = next.spin;
-        turn.q = next.q;
-        place(g, 1);
-    }
-    /// Places the pebbles of a clump that are in a list (needed 1) or those that are not (needed 0).
-    void place(std::size_t g, std::uint8_t needed) {
-        const grain& one = grains.grains[g];
-        const shape& s = grains.shape_of(one);
-        const body_motion& m = grains.motion[g];
-        const mat3 turn = matrix(grains.turning[g].q);
-        for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
-            const std::size_t p = at(one.first) + k;
-            if (needed_[p] != needed) continue;
-            const vec3 arm = turn * s.pebbles[k].offset;
-            pebble_motion& pebble = grains.pebbles[p];
-            pebble.x = m.x + arm;
-            pebble.v = m.v + cross(m.w, arm);
-            pebble.w = m.w;
-        }
-    }
-
-    /// Evaluates all slow contacts and moves all clumps; returns the largest displacement since the last rebuild.
+    /// Evaluates all slow contacts and moves all swept bodies; returns the largest displacement since the last rebuild.
     double sweep() {
-        evaluate_strips(slow_, 0, slow_shared_, dt_, as_is);
+        set_shifts();
+        evaluate_strips(slow_, 0, slow_shared_, dt_, to_image());
         settings.run.for_each(
             ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r]); }, 1);
         double moved = 0.0;
@@ -511,12 +519,12 @@ template <triaxial_policies P> class engine {
             const std::size_t to = std::min(from + chunk, r.last_body);
             while (row < own_end_[to - 1]) {
                 const std::size_t end = std::min(row + strip<contact>::length, r.last_row);
-                evaluate(slow_, row, end, grains.pebbles.data(), settings.grain_contact, dt_, s, as_is);
+                evaluate(slow_, row, end, grains.pebbles.data(), settings.grain_contact, dt_, s, to_image());
                 row = end;
             }
             for (std::size_t g = from; g < to; ++g) {
-                if (!grains.is_clump(g)) continue;
-                load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.motion[g].x, 0.0);
+                if (!grains.is_swept(g)) continue;
+                load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.centre(g), 0.0);
                 if constexpr (breakable) {
                     if (broken_.halo[g] != 0) {
                         load.force += broken_.fast_load[g].force;
@@ -525,8 +533,8 @@ template <triaxial_policies P> class engine {
                     }
                     if (look && is_critical(g)) r.marked.push_back(certificate(g));
                 }
-                kick_clump(g, load, dt_);
-                drift_clump(g, dt_);
+                grains.advance(g, load, dt_, settings.damping);
+                grains.place(g, [&](std::size_t p) { return needed_[p] != 0; });
                 r.moved = std::max(r.moved, displacement(g));
             }
         }
@@ -788,7 +796,7 @@ template <triaxial_policies P> class engine {
             for (birth_certificate& m : marked_) {
                 const auto g = at(m.grain);
                 grain& one = grains.grains[g];
-                place(g, 0);
+                grains.place(g, [&](std::size_t p) { return needed_[p] == 0; });
                 const vec3 spin = spin_of(grains.turning[g].q, grains.turning[g].l, grains.inverse_inertia(one));
                 bonds::cluster_pool& pool = broken_.pools[at(one.shape)];
                 for (std::size_t k = 0; k < pool.shape().size(); ++k) {
@@ -825,25 +833,60 @@ template <triaxial_policies P> class engine {
             loads_.assign(loads_.size(), {}), couplings_.clear();
         add_loads(slow_wall_, 1.0, loads_, &couplings_);
         // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
-        const double power = boundary.power(loads_);
+        const double power = periodic ? 0.0 : boundary.power(loads_);
         boundary.control(loads_, drives, dt_, couplings_);
-        totals_.boundary_work += 0.5 * (power + boundary.power(loads_)) * dt_;
+        if constexpr (!periodic) totals_.boundary_work += 0.5 * (power + boundary.power(loads_)) * dt_;
+    }
+    /// Work of a periodic cell: contacts across its faces move with their images.
+    void add_work_of_images() {
+        if constexpr (periodic) {
+            double power = 0.0;
+            for (std::uint32_t k : across_) power += dot(slow_.rows[k].force, shift_speed_[slow_.image[k]]);
+            totals_.boundary_work += power * dt_;
+        }
+    }
+    /// Stress of the contacts just evaluated, and the stiffness of the packing for uniform strain along each axis.
+    void observe_stress() {
+        if constexpr (periodic) {
+            vec3 stress, modulus;
+            slow_.each_sorted(slow_shared_, [&](std::size_t k) {
+                const force_row& row = slow_.rows[k];
+                if (row.depth == 0.0) return;
+                const pebble_pair& p = slow_.pairs[k];
+                const double ri = grains.pebbles[at(p.i)].radius, rj = grains.pebbles[at(p.j)].radius;
+                const vec3 branch = branch_of(row, p);
+                const double kn = settings.grain_contact.normal_stiffness({0, 0, 1, row.depth, ri, rj});
+                for (int a = 0; a < 3; ++a) {
+                    stress[a] -= row.force[a] * branch[a];
+                    modulus[a] += kn * branch[a] * branch[a] * row.normal[a] * row.normal[a];
+                }
+            });
+            const double volume = boundary.volume();
+            boundary.observe(stress / volume, modulus / volume, dt_);
+        }
     }
     void finish_boundary() {
         boundary.advance(dt_);
         wall_travel_ += boundary.fastest() * dt_;
+        if constexpr (periodic) { // how much the strain of the cell brings two listed grains together
+            wall_travel_ = 0.0;
+            for (int a = 0; a < 3; ++a) {
+                stretch_[a] = boundary.edges()[a] / reference_edges_[a];
+                wall_travel_ = std::max(wall_travel_, std::abs(stretch_[a] - 1.0) * (widest_ + settings.skin));
+            }
+        }
     }
 
     // ---- lists ----------------------------------------------------------------------------------------------------
 
     /// How far the surface of a clump may have moved since the last rebuild (m).
     double displacement(std::size_t g) const {
-        const quaternion d = conjugate(reference_turn_[g]) * grains.turning[g].q;
-        const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
-        const double reach = grains.shape_of(grains.grains[g]).circumscribed_radius;
-        double moved = norm(grains.motion[g].x - reference_[g]) + reach * turned_by;
+        vec3 from = reference_[g].centre;
+        if constexpr (periodic) from = scale(stretch_, from);
+        double moved = grains.displacement(g, reference_[g], from);
         if constexpr (breakable)
-            if (broken_.halo[g] != 0) moved += dt_ * (norm(grains.motion[g].v) + reach * norm(grains.motion[g].w));
+            if (broken_.halo[g] != 0)
+                moved += dt_ * (norm(grains.motion[g].v) + grains.bounding_radius(g) * norm(grains.motion[g].w));
         return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
     }
     /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since
@@ -851,26 +894,30 @@ template <triaxial_policies P> class engine {
     void check_displacements(double largest) {
         if constexpr (breakable)
             largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
-                const std::size_t b = ball(broken_.balls[k]);
+                const std::size_t p = at(broken_.balls[k]), b = ball(broken_.balls[k]);
                 const double moved =
-                    norm(grains.pebbles[at(broken_.balls[k])].x - reference_[b]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                    norm(grains.pebbles[p].x - ball_reference_[p]) + 2.0 * dt_ * norm(grains.motion[b].v);
                 return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
             });
         if (!std::isfinite(largest)) explain_nan();
-        if (2.0 * largest >= settings.skin || largest + wall_travel_ >= settings.skin) must_rebuild_ = true;
+        if (2.0 * largest + (periodic ? wall_travel_ : 0.0) >= settings.skin || largest + wall_travel_ >= settings.skin)
+            must_rebuild_ = true;
     }
 
     [[noreturn]] void explain_nan() const {
-        for (std::size_t b = 0; b < grains.motion.size(); ++b)
-            if (!is_finite(grains.motion[b].x) || !is_finite(grains.motion[b].v))
-                throw run_error(
-                    {fmt::format("the motion of body {} is not a finite number", b),
-                     b < grains.grain_count() ? fmt::format("grain {}", b)
-                                              : fmt::format("ball {}", b - grains.grain_count()),
-                     fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time),
-                     "forces grew without bound: the time step is too large for a contact or a bond, or two "
-                     "centres passed each other",
-                     "lower `safety` of the time step, the loading rate or the stress"});
+        const auto blame = [&](std::string what, std::size_t number) {
+            throw run_error({fmt::format("the motion of {} {} is not a finite number", what, number),
+                             fmt::format("{} {}", what, number),
+                             fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time),
+                             "forces grew without bound: the time step is too large for a contact or a bond, or two "
+                             "centres passed each other",
+                             "lower `safety` of the time step, the loading rate or the stress"});
+        };
+        for (std::size_t b = 0; b < grains.body_count(); ++b)
+            if (!is_finite(grains.centre(b))) blame("grain", b);
+        if constexpr (breakable)
+            for (std::int32_t p : broken_.balls)
+                if (!is_finite(grains.motion[ball(p)].x)) blame("ball", at(p));
         throw run_error({"a displacement is not a finite number", "unknown body",
                          fmt::format("step {}, t = {:.6g} s", totals_.steps, totals_.time), "unstable time step",
                          "lower `safety` of the time step"});
@@ -880,39 +927,53 @@ template <triaxial_policies P> class engine {
     void rebuild() {
         place_all();
         join_ranges();
-        const std::size_t ng = grains.grain_count();
+        const std::size_t ng = grains.body_count();
         std::vector<searches::sphere> spheres;
         for (std::size_t g = 0; g < ng; ++g)
-            if (grains.is_clump(g))
-                spheres.push_back({grains.motion[g].x, grains.shape_of(grains.grains[g]).circumscribed_radius,
-                                   static_cast<std::int32_t>(g)});
+            if (grains.is_swept(g))
+                spheres.push_back({grains.centre(g), grains.bounding_radius(g), static_cast<std::int32_t>(g)});
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls)
                 spheres.push_back(
                     {grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius, static_cast<std::int32_t>(ball(p))});
+        const std::size_t real = spheres.size();
+        std::vector<std::uint8_t> ghost_image; // of the spheres after the real ones
+        if constexpr (periodic) add_ghosts(spheres, ghost_image);
         const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, settings.skin);
 
         constexpr std::size_t chunk = 256;
         const std::size_t chunks = (near.size() + chunk - 1) / chunk;
-        std::vector<std::array<std::vector<pebble_pair>, 2>> found(chunks);
+        std::vector<std::array<std::vector<listed_pair>, 2>> found(chunks);
         settings.run.for_each(
             chunks,
             [&](std::size_t c) {
                 for (std::size_t k = c * chunk; k < std::min(near.size(), (c + 1) * chunk); ++k) {
+                    if (at(near[k].first) >= real) continue; // two ghosts
                     const searches::sphere& a = spheres[at(near[k].first)];
                     const searches::sphere& b = spheres[at(near[k].second)];
+                    if (a.id == b.id) continue;
                     const bool light = at(a.id) >= ng || at(b.id) >= ng;
-                    pebble_pairs(a, b, found[c][light ? 1 : 0]);
+                    const std::uint8_t image =
+                        at(near[k].second) >= real ? ghost_image[at(near[k].second) - real] : no_shift;
+                    pebble_pairs(a, b, image, found[c][light ? 1 : 0]);
                 }
             },
             1);
         contact_list<history> slow, fast;
-        for (const auto& part : found) {
-            slow.pairs.insert(slow.pairs.end(), part[0].begin(), part[0].end());
-            fast.pairs.insert(fast.pairs.end(), part[1].begin(), part[1].end());
+        for (const std::size_t which : {0U, 1U}) {
+            contact_list<history>& list = which == 0 ? slow : fast;
+            std::vector<listed_pair> all;
+            for (const auto& part : found) all.insert(all.end(), part[which].begin(), part[which].end());
+            const auto before = [](const listed_pair& a, const listed_pair& b) { return a.pair < b.pair; };
+            if (!std::is_sorted(all.begin(), all.end(), before)) std::sort(all.begin(), all.end(), before);
+            list.pairs.resize(all.size());
+            for (std::size_t k = 0; k < all.size(); ++k) list.pairs[k] = all[k].pair;
+            if constexpr (periodic) {
+                list.image.resize(all.size());
+                for (std::size_t k = 0; k < all.size(); ++k) list.image[k] = all[k].image;
+            }
         }
         for (contact_list<history>* list : {&slow, &fast}) {
-            std::sort(list->pairs.begin(), list->pairs.end());
             list->resize_rows();
             for (std::size_t k = 0; k < list->size(); ++k) {
                 if constexpr (contact_list<history>::remembers) {
@@ -921,8 +982,12 @@ template <triaxial_policies P> class engine {
                         if (was < old->size()) list->history[k] = old->history[was];
                     }
                 }
-                if constexpr (breakable) list->bonded[k] = is_bonded(list->pairs[k]) ? 1 : 0;
             }
+            if constexpr (breakable)
+                if (list == &fast) {
+                    list->bonded.resize(list->size());
+                    for (std::size_t k = 0; k < list->size(); ++k) list->bonded[k] = is_bonded(list->pairs[k]) ? 1 : 0;
+                }
         }
         slow_ = std::move(slow);
         fast_ = std::move(fast);
@@ -930,23 +995,72 @@ template <triaxial_policies P> class engine {
         list_walls();
         index_rows();
         split_ranges();
-        reference_.resize(grains.motion.size());
-        for (std::size_t b = 0; b < grains.motion.size(); ++b)
-            reference_[b] = b < ng ? grains.motion[b].x : grains.pebbles[b - ng].x;
-        reference_turn_.resize(ng);
-        for (std::size_t g = 0; g < ng; ++g) reference_turn_[g] = grains.turning[g].q;
+        reference_.resize(ng);
+        for (std::size_t b = 0; b < ng; ++b) reference_[b] = grains.refer(b);
+        if constexpr (breakable) {
+            ball_reference_.resize(grains.pebble_count());
+            for (std::size_t p = 0; p < grains.pebble_count(); ++p) ball_reference_[p] = grains.pebbles[p].x;
+        }
+        if constexpr (periodic) {
+            reference_edges_ = boundary.edges();
+            stretch_ = {1.0, 1.0, 1.0};
+            widest_ = 0.0;
+            for (std::size_t b = 0; b < ng; ++b) widest_ = std::max(widest_, 2.0 * grains.bounding_radius(b));
+        }
         wall_travel_ = 0.0;
         work_loads_.assign(loads_.size(), {});
         must_rebuild_ = false;
         ++totals_.rebuilds;
     }
 
-    void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::vector<pebble_pair>& out) const {
+    struct listed_pair {
+        pebble_pair pair;
+        std::uint8_t image;
+    };
+    /// Puts every body back into the cell, and adds images of those near its faces: for half of the 26 shifts, so that
+    /// each pair is named once.
+    void add_ghosts(std::vector<searches::sphere>& spheres, std::vector<std::uint8_t>& image) {
+        if constexpr (periodic) {
+            const vec3 edges = boundary.edges();
+            double widest = 0.0;
+            for (searches::sphere& s : spheres) {
+                widest = std::max(widest, 2.0 * s.radius);
+                vec3 steps;
+                for (int a = 0; a < 3; ++a) steps[a] = -std::floor(s.centre[a] / edges[a] + 0.5);
+                if (steps == vec3{}) continue;
+                // to be moved by a moving face changes a grain's energy
+                const double before = grains.kinetic_energy(at(s.id));
+                grains.shift(at(s.id), scale(steps, edges), scale(steps, boundary.edge_speeds()));
+                totals_.boundary_work += grains.kinetic_energy(at(s.id)) - before;
+                grains.place(at(s.id), [](std::size_t) { return true; });
+                s.centre = grains.centre(at(s.id));
+            }
+            const double reach = widest + settings.skin;
+            if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
+                throw run_error({"the periodic cell is too small for its grains",
+                                 fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
+                                 fmt::format("step {}", totals_.steps), "a grain would touch two images of another",
+                                 "take a cell of at least four grain diameters"});
+            const std::size_t real = spheres.size();
+            for (std::size_t k = 0; k < real; ++k)
+                for (std::size_t i = no_shift + 1; i < 27; ++i) {
+                    const vec3 c = spheres[k].centre + image_shift(i, edges);
+                    if (std::abs(c.x) > 0.5 * edges.x + reach || std::abs(c.y) > 0.5 * edges.y + reach ||
+                        std::abs(c.z) > 0.5 * edges.z + reach)
+                        continue;
+                    spheres.push_back({c, spheres[k].radius, spheres[k].id});
+                    image.push_back(static_cast<std::uint8_t>(i));
+                }
+        }
+    }
+
+    void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::uint8_t image,
+                      std::vector<listed_pair>& out) const {
+        vec3 shift;
+        if constexpr (periodic) shift = image_shift(image, boundary.edges());
         const auto range = [&](const searches::sphere& s) {
-            const std::size_t ng = grains.grain_count();
-            if (at(s.id) >= ng) return std::pair{at(s.id) - ng, at(s.id) - ng + 1};
-            const grain& g = grains.grains[at(s.id)];
-            return std::pair{at(g.first), at(g.first) + grains.shape_of(g).pebbles.size()};
+            const std::size_t ng = grains.body_count();
+            return at(s.id) >= ng ? index_range{at(s.id) - ng, at(s.id) - ng + 1} : grains.pebbles_of(at(s.id));
         };
         const auto [a0, a1] = range(a);
         const auto [b0, b1] = range(b);
@@ -954,9 +1068,12 @@ template <triaxial_policies P> class engine {
             const searches::sphere pi{grains.pebbles[i].x, grains.pebbles[i].radius};
             if (!searches::within(pi, b, settings.skin)) continue;
             for (std::size_t j = b0; j < b1; ++j)
-                if (searches::within(pi, {grains.pebbles[j].x, grains.pebbles[j].radius}, settings.skin))
-                    out.push_back(
-                        {static_cast<std::int32_t>(std::min(i, j)), static_cast<std::int32_t>(std::max(i, j))});
+                if (searches::within(pi, {grains.pebbles[j].x + shift, grains.pebbles[j].radius}, settings.skin)) {
+                    const auto p = static_cast<std::int32_t>(i), q = static_cast<std::int32_t>(j);
+                    // seen from j, it is i that lies the other way
+                    out.push_back(p < q ? listed_pair{{p, q}, image}
+                                        : listed_pair{{q, p}, static_cast<std::uint8_t>(2 * no_shift - image)});
+                }
         }
     }
 
@@ -975,23 +1092,23 @@ template <triaxial_policies P> class engine {
 
     void list_walls() {
         slow_wall_.clear(), fast_wall_.clear();
-        for (std::size_t g = 0; g < grains.grain_count(); ++g) {
-            const grain& one = grains.grains[g];
-            const shape& s = grains.shape_of(one);
-            const bool clump = grains.is_clump(g);
-            if (clump && !boundary.near(grains.motion[g].x, s.circumscribed_radius + settings.skin)) continue;
-            for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
-                const std::size_t p = at(one.first) + k;
+        for (std::size_t g = 0; g < grains.body_count(); ++g) {
+            const bool swept = grains.is_swept(g);
+            if (swept && !boundary.near(grains.centre(g), grains.bounding_radius(g) + settings.skin)) continue;
+            const index_range pebbles = grains.pebbles_of(g);
+            for (std::size_t p = pebbles.begin; p < pebbles.end; ++p) {
                 if (!boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + settings.skin)) continue;
                 wall_row w;
                 w.pebble = static_cast<std::int32_t>(p);
-                (clump ? slow_wall_ : fast_wall_).push_back(w);
+                (swept ? slow_wall_ : fast_wall_).push_back(w);
             }
         }
     }
 
     void index_rows() {
-        slow_of_ = incidence(grains.grain_count(), slow_, slow_wall_, grains.owner);
+        const auto body_of = [&](std::int32_t p) { return grains.body_of(p); };
+        slow_of_ = incidence(grains.body_count(), slow_, slow_wall_, body_of);
+        if constexpr (!specimen_type::turns) return; // bodies are their pebbles
         needed_.assign(grains.pebble_count(), 0);
         const auto need = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
             for (const pebble_pair& p : list.pairs) needed_[at(p.i)] = needed_[at(p.j)] = 1;
@@ -999,7 +1116,7 @@ template <triaxial_policies P> class engine {
         };
         need(slow_, slow_wall_);
         if constexpr (breakable) {
-            fast_of_ = incidence(grains.motion.size(), fast_, fast_wall_, grains.owner);
+            fast_of_ = incidence(grains.motion.size(), fast_, fast_wall_, body_of);
             need(fast_, fast_wall_);
             for (std::size_t g = 0; g < grains.grain_count(); ++g)
                 broken_.halo[g] = grains.is_clump(g) && !fast_of_.of(g).empty() ? 1 : 0;
@@ -1010,7 +1127,7 @@ template <triaxial_policies P> class engine {
     /// two ranges to the front of the list. The sums of bodies keep their order.
     void split_ranges() {
         constexpr std::size_t least = 2048; ///< contacts that are worth a thread
-        const std::size_t n = slow_.size(), bodies = grains.grain_count();
+        const std::size_t n = slow_.size(), bodies = grains.body_count();
         const std::size_t count =
             std::clamp<std::size_t>(n / least, 1, static_cast<std::size_t>(settings.run.threads()));
         ranges_.assign(count, {});
@@ -1021,7 +1138,7 @@ template <triaxial_policies P> class engine {
                 ranges_[r].first_body = body;
                 const std::size_t target = (r + 1) * n / count;
                 while (body < bodies && (r + 1 == count || row < target)) {
-                    while (row < n && at(grains.owner[at(slow_.pairs[row].i)]) == body) ++row;
+                    while (row < n && grains.body_of(slow_.pairs[row].i) == body) ++row;
                     range_of[body++] = r;
                 }
                 ranges_[r].last_body = body;
@@ -1033,19 +1150,25 @@ template <triaxial_policies P> class engine {
             std::iota(order.begin(), order.end(), 0U);
             const auto shared = [&](std::uint32_t k) {
                 const pebble_pair& p = slow_.pairs[k];
-                return range_of[at(grains.owner[at(p.i)])] != range_of[at(grains.owner[at(p.j)])];
+                return range_of[grains.body_of(p.i)] != range_of[grains.body_of(p.j)];
             };
             slow_shared_ =
                 static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), shared) - order.begin());
             slow_.reorder(order);
             slow_of_.renumber(order);
         }
+        if constexpr (periodic) {
+            across_.clear();
+            slow_.each_sorted(slow_shared_, [&](std::size_t k) {
+                if (slow_.image[k] != no_shift) across_.push_back(static_cast<std::uint32_t>(k));
+            });
+        }
         own_end_.assign(bodies, 0);
         std::size_t row = slow_shared_;
         for (body_range& r : ranges_) {
             r.first_row = row;
             for (std::size_t b = r.first_body; b < r.last_body; ++b) {
-                while (row < n && at(grains.owner[at(slow_.pairs[row].i)]) == b) ++row;
+                while (row < n && grains.body_of(slow_.pairs[row].i) == b) ++row;
                 own_end_[b] = static_cast<std::uint32_t>(row);
             }
             r.last_row = row;
@@ -1075,14 +1198,12 @@ template <triaxial_policies P> class engine {
                 w.touch = boundary.touch(grains.pebbles[at(w.pebble)].x, grains.pebbles[at(w.pebble)].radius);
             });
         double limit = typical_limit(smallest_mass_);
-        limit = -settings.run.max(grains.grain_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
-            if (!grains.is_clump(g)) return -std::numeric_limits<double>::infinity();
-            const grain& one = grains.grains[g];
-            stiffness_sum k(matrix(grains.turning[g].q));
-            add_stiffness(k, slow_of_, g, slow_, slow_wall_, grains.motion[g].x);
-            if constexpr (breakable) add_stiffness(k, fast_of_, g, fast_, fast_wall_, grains.motion[g].x);
-            return -k.time_step(grains.mass_of(one), grains.density * grains.shape_of(one).inertia_per_density,
-                                settings.safety);
+        limit = -settings.run.max(grains.body_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
+            if (!grains.is_swept(g)) return -std::numeric_limits<double>::infinity();
+            stiffness_sum k(grains.body_axes(g));
+            add_stiffness(k, slow_of_, g, slow_, slow_wall_, grains.centre(g));
+            if constexpr (breakable) add_stiffness(k, fast_of_, g, fast_, fast_wall_, grains.centre(g));
+            return -k.time_step(grains.body_mass(g), grains.body_inertia(g), settings.safety);
         });
         // grow slowly: contacts that are about to form are not in the sum yet
         dt_ = first ? limit : std::min(limit, 1.02 * dt_);
@@ -1106,14 +1227,15 @@ template <triaxial_policies P> class engine {
             const std::size_t r = one.row();
             if (r < list.size()) {
                 const auto& pr = list.pairs[r];
-                const vec3 d = grains.pebbles[at(pr.j)].x - grains.pebbles[at(pr.i)].x;
+                const vec3 d = apart(list, r);
                 const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius,
                              distance = norm(d);
-                if (list.bonded[r] != 0 || distance >= ri + rj) continue;
+                if (list.is_asleep(r) || distance >= ri + rj) continue;
                 const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
                 const vec3 n = d / distance;
+                const pebble_motion& p = grains.pebbles[at(one.pebble)];
                 k.add(n, settings.grain_contact.normal_stiffness(o), settings.grain_contact.shear_stiffness(o),
-                      grains.pebbles[at(pr.i)].x + (ri - 0.5 * o.depth) * n - centre);
+                      p.x - centre + (one.side() * (p.radius - 0.5 * o.depth)) * n);
             } else {
                 const wall_row& w = wall[r - list.size()];
                 const double rp = grains.pebbles[at(w.pebble)].radius;
@@ -1183,9 +1305,9 @@ template <triaxial_policies P> class engine {
     contact_list<history> fast_; ///< at least one ball
     std::vector<wall_row> slow_wall_, fast_wall_;
     incidence slow_of_, fast_of_;
-    std::vector<vec3> reference_;            ///< per body: centre at the last rebuild
-    std::vector<quaternion> reference_turn_; ///< per grain
-    std::vector<std::uint8_t> needed_;       ///< per pebble: in a list, so placed in every step
+    std::vector<typename specimen_type::reference> reference_; ///< per swept body: where it was at the last rebuild
+    std::vector<vec3> ball_reference_;                         ///< per pebble of a breakable specimen
+    std::vector<std::uint8_t> needed_;                         ///< per pebble: in a list, so placed in every step
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
     std::vector<body_range> ranges_;
@@ -1197,6 +1319,12 @@ template <triaxial_policies P> class engine {
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
     double wall_travel_ = 0.0;
+    std::vector<std::uint32_t> across_; ///< contacts across a face of a periodic cell, in order
+    vec3 stretch_{1.0, 1.0, 1.0};       ///< edges of a periodic cell over those at the last rebuild: a homogeneous
+                                        ///< deformation brings no pair together but by its strain
+    vec3 reference_edges_;              ///< of a periodic cell, at the last rebuild
+    double widest_ = 0.0;               ///< largest bounding diameter, of a periodic specimen (m)
+    std::conditional_t<periodic, std::array<vec3, 27>, nothing> shift_{}, shift_speed_{}; ///< of the images
     int fast_steps_ = 1;
     bool must_rebuild_ = false;
     bool estimate_due_ = false;

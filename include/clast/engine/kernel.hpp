@@ -116,6 +116,7 @@ template <class Law, class Adjust>
 void evaluate(contact_list<typename Law::history>& list, std::size_t begin, std::size_t end,
               const pebble_motion* pebbles, const Law& law, double h, strip<Law>& s, Adjust&& adjust) {
     constexpr bool remembers = contact_list<typename Law::history>::remembers;
+    const bool may_sleep = !list.bonded.empty();
     for (std::size_t at = begin; at < end; at += strip<Law>::length) {
         const std::size_t n = std::min(strip<Law>::length, end - at);
         gather(s, std::span(list.pairs).subspan(at, n), pebbles,
@@ -123,7 +124,7 @@ void evaluate(contact_list<typename Law::history>& list, std::size_t begin, std:
         if constexpr (remembers) std::copy_n(list.history.data() + at, n, s.past);
         evaluate(s, law, h);
         for (std::size_t k = 0; k < n; ++k) {
-            if (list.bonded[at + k] != 0) continue; // its row was emptied when it fell asleep
+            if (may_sleep && list.bonded[at + k] != 0) continue; // its row was emptied when it fell asleep
             if constexpr (remembers) list.history[at + k] = s.past[k];
             list.rows[at + k] = {{s.fx[k], s.fy[k], s.fz[k]}, s.depth[k], {s.nx[k], s.ny[k], s.nz[k]}, s.dissipated[k]};
         }

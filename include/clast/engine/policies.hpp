@@ -11,6 +11,7 @@
 #include <clast/criteria/concepts.hpp>
 #include <clast/criteria/nominal_force.hpp>
 #include <clast/criteria/none.hpp>
+#include <clast/engine/specimen.hpp>
 #include <clast/replacements/concepts.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
@@ -27,12 +28,14 @@ struct triaxial_policies_default {
     using replacement = replacements::modified;
     using boundary = boundaries::tiles;
     using search = searches::cell_grid;
+    using specimen = clast::specimen; // of clumps; sphere_specimen: spheres that never break
 };
 
 /// A complete bundle. A policy that is missing or does not satisfy its own concept is named by the compiler.
 template <class P>
 concept triaxial_policies = contacts::contact_law<typename P::contact> &&
     replacements::replacement<typename P::replacement> && criteria::criterion<typename P::breakage> &&
-    boundaries::boundary<typename P::boundary> && searches::search<typename P::search>;
+    boundaries::boundary<typename P::boundary> && searches::search<typename P::search> &&
+    specimen_type<typename P::specimen> &&(P::specimen::turns || !P::replacement::makes_bonds);
 
 } // namespace clast

@@ -11,8 +11,10 @@ namespace clast {
 /// Not invariant to a moving frame: it also brakes the rigid motion of a zone. Cundall (1987); paper: coefficient not
 /// stated.
 constexpr double damping_force(double force, double velocity, double a) {
+    // no branch: signs of velocities at rest are as good as random, and would be guessed wrong
     const double size = force < 0.0 ? -force : force;
-    return velocity > 0.0 ? -a * size : velocity < 0.0 ? a * size : 0.0;
+    const double sign = static_cast<double>(velocity > 0.0) - static_cast<double>(velocity < 0.0);
+    return -a * size * sign;
 }
 
 /// Local damping of a body's unbalanced force (N) by the components of its velocity (m/s) in the world frame, to be

@@ -21,15 +21,10 @@ namespace clast::measure {
 template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
-    const auto centre = [&](std::size_t pebble) { // of its body
-        const std::size_t owner = at(s.owner[pebble]);
-        return owner < s.grain_count() ? s.motion[owner].x : s.pebbles[pebble].x;
-    };
     e.each_contact([&](const auto& row, const auto& pair) {
         if (row.depth == 0.0) return;
-        const vec3 branch = centre(at(pair.j)) - centre(at(pair.i));
         const auto& p = s.pebbles[at(pair.i)];
-        f(-row.force, branch, p.x + (p.radius - 0.5 * row.depth) * row.normal);
+        f(-row.force, e.branch_of(row, pair), p.x + (p.radius - 0.5 * row.depth) * row.normal);
     });
     e.each_wall_row([&](const auto& w) {
         const double way = norm(boundaries::lateral_push(w.touch));
@@ -38,7 +33,7 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
             const double size =
                 t.facet < boundaries::first_lateral_facet ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
             const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * t.normal;
-            f(-size * t.normal, point - centre(p), point);
+            f(-size * t.normal, point - e.centre_of(w.pebble), point);
         }
     });
     if constexpr (Engine::breakable) {
@@ -90,13 +85,14 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
     const auto piece = [&](std::int32_t pebble) {
-        const std::int32_t owner = s.owner[at(pebble)];
+        const std::size_t body = s.body_of(pebble);
         if constexpr (Engine::breakable)
-            if (at(owner) >= s.grain_count()) return s.grain_count() + at(e.breakage().fragment[at(pebble)]);
-        return at(owner);
+            if (body >= s.body_count()) return s.body_count() + at(e.breakage().fragment[at(pebble)]);
+        return body;
     };
-    std::vector<vec3> net(s.motion.size());
-    std::vector<double> sum(s.motion.size(), 0.0);
+    const std::size_t pieces = s.body_count() + (Engine::breakable ? s.pebble_count() : 0);
+    std::vector<vec3> net(pieces);
+    std::vector<double> sum(pieces, 0.0);
     std::vector<std::pair<std::size_t, std::size_t>> neighbours;
     contact_state c;
     double forces = 0.0;
@@ -128,11 +124,11 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         total += sum[b];
         ++bodies;
     };
-    for (std::size_t g = 0; g < s.grain_count(); ++g)
-        if (s.is_clump(g)) body(g);
+    for (std::size_t b = 0; b < s.body_count(); ++b)
+        if (s.is_swept(b)) body(b);
     if constexpr (Engine::breakable)
         for (std::int32_t p : e.breakage().balls)
-            if (e.breakage().fragment[at(p)] == p) body(s.grain_count() + at(p));
+            if (e.breakage().fragment[at(p)] == p) body(s.body_count() + at(p));
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     c.unbalanced_ratio = total > 0.0 ? largest / (total / static_cast<double>(bodies)) : 0.0;

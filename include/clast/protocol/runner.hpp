@@ -346,7 +346,8 @@ template <triaxial_policies P> class runner {
         const double packing_rate = coordination < 1.0 ? plan.packing_rate_before_contact * shear_rate
                                                        : std::min(plan.packing_rate_before_contact * shear_rate,
                                                                   rate_at(plan.packing_inertial_number, smoothed_p_));
-        const double servo_speed = 3.0 * shear_rate * plan.radius;
+        // a tile of a bulge moves at half the strain rate times the radius; where grains slip it has to run after them
+        const double servo_speed = 6.0 * shear_rate * plan.radius;
         const double look_time = static_cast<double>(plan.look_every) * sim.dt();
         const auto one = [&](const axis_drive& a, double size, double share, double start) {
             boundaries::drive d;

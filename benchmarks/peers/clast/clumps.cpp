@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Rigid clumps in a box of six rigid frictionless walls that move at constant speed.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+#include <clast/boundaries/box.hpp>
+#include <clast/contacts/linear_dashpot.hpp>
+#include <clast/criteria/none.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/replacements/none.hpp>
+
+#include "scene.hpp"
+
+struct clumps : clast::triaxial_policies_default {
+    using contact = clast::contacts::linear_dashpot;
+    using boundary = clast::boundaries::box;
+    using breakage = clast::criteria::none;
+    using replacement = clast::replacements::none;
+};
+
+/// Shape of pebbles that overlap, with mass and inertia summed over them: the library's shapes do not overlap (their
+/// volume is that of the rock), so it is made of smaller pebbles in the same places, which have the same principal
+/// axes.
+clast::shape overlapping(const std::vector<peers::sphere>& members) {
+    constexpr double smaller = 0.7;
+    std::vector<clast::shape_pebble> pebbles;
+    for (const peers::sphere& one : members) pebbles.push_back({one.x, smaller * one.r});
+    clast::shape s = clast::make_shape("clump", pebbles);
+    s.volume = s.circumscribed_radius = 0.0;
+    s.inertia_per_density = {};
+    for (clast::shape_pebble& p : s.pebbles) {
+        p.radius /= smaller;
+        const double v = clast::sphere_volume(p.radius);
+        s.volume += v;
+        for (int a = 0; a < 3; ++a)
+            s.inertia_per_density[a] +=
+                clast::sphere_inertia_per_density(p.radius) + v * (clast::norm2(p.offset) - p.offset[a] * p.offset[a]);
+        s.circumscribed_radius = std::max(s.circumscribed_radius, clast::norm(p.offset) + p.radius);
+    }
+    return s;
+}
+
+int main(int argc, char** argv) try {
+    const peers::scene s = peers::read(argc, argv);
+    clast::specimen grains;
+    grains.density = s["density"];
+    // every clump is the first one, turned: its orientation from its first three pebbles
+    std::vector<std::vector<peers::sphere>> members;
+    for (const peers::sphere& one : s.spheres) {
+        if (members.empty() || members.back()[0].owner != one.owner) members.emplace_back();
+        members.back().push_back(one);
+    }
+    grains.shapes.push_back(overlapping(members[0]));
+    const clast::shape& kind = grains.shapes[0];
+    const auto frame = [](const clast::vec3& a, const clast::vec3& b, const clast::vec3& c) {
+        const clast::vec3 e0 = clast::unit(b - a), e1 = clast::unit(clast::reject(c - a, e0));
+        return clast::transpose(clast::mat3{{e0, e1, clast::cross(e0, e1)}});
+    };
+    const clast::mat3 own = frame(kind.pebbles[0].offset, kind.pebbles[1].offset, kind.pebbles[2].offset);
+    for (const auto& m : members) {
+        clast::mat3 turn;
+        const clast::mat3 there = frame(m[0].x, m[1].x, m[2].x), back = clast::transpose(own);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k) turn(i, j) += there(i, k) * back(k, j);
+        const clast::quaternion q = clast::turning(turn);
+        const clast::vec3 centre = m[0].x - clast::rotate(q, kind.pebbles[0].offset);
+        const std::int32_t g = grains.add(0, centre, q);
+        grains.motion[static_cast<std::size_t>(g)].v = s.flow(centre);
+    }
+    const double mass = grains.mass_of(grains.grains[0]);
+    const clast::contacts::linear_dashpot law{s["kn"], s["kt"], s["mu"], s["gamma_n"], s["density"], mass};
+    clast::contacts::linear_dashpot wall = law;
+    wall.ks = wall.mu = 0.0;
+    wall.gamma *= 2.0; // m_eff = m
+    const std::size_t count = members.size();
+    clast::engine<clumps> e(peers::settings<clumps>(s, law, wall), std::move(grains), peers::walls(s));
+    peers::drive_walls(e, s);
+    peers::run_in_walls("clumps", e, s, count);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Reads the scenes that all programs run, and prints the result in the form that they share
+// (benchmarks/peers/README.md).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <clast/boundaries/box.hpp>
+#include <clast/core/errors.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/engine/engine.hpp>
+#include <clast/version.hpp>
+
+namespace peers {
+
+struct sphere {
+    std::int32_t owner;
+    clast::vec3 x;
+    double r;
+};
+
+struct scene {
+    std::map<std::string, double> parameters;
+    clast::vec3 low, high; ///< periodic cell or walls (m)
+    std::vector<sphere> spheres;
+    std::int64_t steps = 0;
+    double skin = 0.05; ///< over the mean diameter
+    int threads = 1;
+
+    double operator[](const std::string& key) const {
+        const auto found = parameters.find(key);
+        if (found == parameters.end())
+            throw clast::input_error("--parameters", "no " + key, "key value lines", "See benchmarks/peers/README.md.");
+        return found->second;
+    }
+    clast::vec3 centre() const { return 0.5 * (low + high); }
+    clast::vec3 rates() const { return {(*this)["rate_x"], (*this)["rate_y"], (*this)["rate_z"]}; }
+    /// Homogeneous flow of the start.
+    clast::vec3 flow(const clast::vec3& x) const { return clast::scale(rates(), x - centre()); }
+    double mean_diameter() const {
+        double sum = 0.0;
+        for (const sphere& s : spheres) sum += 2.0 * s.r;
+        return sum / static_cast<double>(spheres.size());
+    }
+};
+
+inline scene read(int argc, char** argv) {
+    scene s;
+    std::string parameters, state;
+    for (int k = 1; k + 1 < argc; k += 2) {
+        const std::string option = argv[k], value = argv[k + 1];
+        if (option == "--parameters")
+            parameters = value;
+        else if (option == "--state")
+            state = value;
+        else if (option == "--steps")
+            s.steps = std::atoll(value.c_str());
+        else if (option == "--skin")
+            s.skin = std::atof(value.c_str());
+        else if (option == "--threads")
+            s.threads = std::atoi(value.c_str());
+        else
+            throw clast::input_error(option, value, "--parameters, --state, --steps, --skin, --threads",
+                                     "See benchmarks/peers/README.md.");
+    }
+    std::ifstream p(parameters);
+    for (std::string line; std::getline(p, line);) {
+        std::istringstream words(line);
+        std::string key;
+        double value = 0.0;
+        if (words >> key >> value && key[0] != '#') s.parameters[key] = value;
+    }
+    std::ifstream f(state);
+    std::string word, kind;
+    int version = 0;
+    std::size_t count = 0;
+    f >> word >> version >> kind >> word >> s.low.x >> s.low.y >> s.low.z >> s.high.x >> s.high.y >> s.high.z >> word >>
+        count;
+    s.spheres.resize(count);
+    for (sphere& one : s.spheres) f >> one.owner >> one.x.x >> one.x.y >> one.x.z >> one.r;
+    if (!f || count == 0 || s.parameters.empty() || s.steps <= 0)
+        throw clast::input_error("--state", state, "a state file, parameters and a number of steps",
+                                 "Make it with benchmarks/peers/scenes.py.");
+    return s;
+}
+
+/// Wall and processor time of `steps` calls of step().
+template <class F> void timed(std::int64_t steps, F&& step, double& seconds, double& cpu) {
+    const auto cpu_time = [] {
+        timespec t;
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    const double cpu_begin = cpu_time();
+    for (std::int64_t k = 0; k < steps; ++k) step();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cpu = cpu_time() - cpu_begin;
+}
+
+/// The line of JSON. stress: along the axes (Pa, compression positive); pairs: touching.
+inline void print(const char* kind, const scene& s, std::size_t n, double seconds, double cpu,
+                  const clast::vec3& stress, std::int64_t pairs, std::int64_t rebuilds) {
+    fmt::print(
+        "{{\"peer\": \"clast\", \"version\": \"{}\", \"scene\": \"{}\", \"n\": {}, \"steps\": {}, \"seconds\": {:.6g}, "
+        "\"cpu_seconds\": {:.6g}, \"particle_steps_per_s\": {:.6g}, \"p_Pa\": {:.8g}, \"q_Pa\": {:.8g}, "
+        "\"coordination\": {:.6g}, \"rebuilds\": {}, \"threads\": {}}}\n",
+        clast::version(), kind, n, s.steps, seconds, cpu,
+        static_cast<double>(n) * static_cast<double>(s.steps) / seconds, (stress.x + stress.y + stress.z) / 3.0,
+        stress.z - 0.5 * (stress.x + stress.y), 2.0 * static_cast<double>(pairs) / static_cast<double>(n), rebuilds,
+        s.threads);
+}
+
+/// Settings of an engine at the step that all programs take.
+template <class P, class Law> clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wall) {
+    return {.grain_contact = law,
+            .platen_contact = wall,
+            .lateral_contact = wall,
+            .breakage = {},
+            .replacement = {},
+            .damping = 0.0,
+            .safety = 1.0,
+            .skin = s.skin * s.mean_diameter(),
+            .largest_step = s["dt"],
+            .run = clast::execution(s.threads)};
+}
+inline clast::boundaries::box walls(const scene& s) {
+    return clast::boundaries::box({s.low, s.high, s["kn"], s["kn"]});
+}
+/// Constant speeds of the walls; those normal to x and y are one pair of rates.
+template <class Engine> void drive_walls(Engine& e, const scene& s) {
+    const clast::vec3 l = s.high - s.low, rate = s.rates();
+    e.drives.platens = {clast::boundaries::drive::mode::velocity, -0.5 * rate.z * l.z, 0.0, 0.5};
+    e.drives.lateral = {clast::boundaries::drive::mode::velocity, -0.5 * rate.x * l.x, 0.0, 0.5};
+}
+/// Runs the steps and prints the result with the stress on the walls.
+template <class Engine> void run_in_walls(const char* kind, Engine& e, const scene& s, std::size_t n) {
+    double seconds = 0.0, cpu = 0.0;
+    timed(
+        s.steps, [&] { e.step(); }, seconds, cpu);
+    std::int64_t pairs = 0;
+    e.each_contact([&](const clast::force_row& row, const clast::pebble_pair&) { pairs += row.depth > 0.0; });
+    const auto stress = [&](int axis) { return e.boundary.stress(e.loads(), axis); };
+    print(kind, s, n, seconds, cpu, {stress(0), stress(1), stress(2)}, pairs, e.totals().rebuilds);
+}
+
+} // namespace peers

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Linear springs with a dashpot along the normal: what dynamic scenes and other programs use instead of local damping.
+#pragma once
+
+#include <numbers>
+
+#include <clast/contacts/linear.hpp>
+
+namespace clast::contacts {
+
+/// Linear contact with Coulomb friction whose normal spring is damped:
+///
+///     F_n = k_n depth + gamma m_eff v,   m_eff = m_i m_j / (m_i + m_j),   |F_s| <= mu |F_n|
+///
+/// with v the speed of approach. Just before separation F_n may pull. Restitution of a central collision
+/// e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)). Masses are those of solid spheres of `density`, or `mass` for
+/// both grains if that is given (clumps of one kind). At a wall, which passes the radius of i twice, m_eff is m / 2:
+/// give the wall's law twice the gamma. Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
+struct linear_dashpot {
+    double kn = 0.0;      ///< normal stiffness of the contact (N/m)
+    double ks = 0.0;      ///< shear stiffness of the contact (N/m)
+    double mu = 0.0;      ///< friction coefficient
+    double gamma = 0.0;   ///< damping rate (1/s), >= 0
+    double density = 0.0; ///< of the grains (kg/m^3)
+    double mass = 0.0;    ///< of every grain (kg); 0: from density and radius
+
+    using history = shear_history;
+
+    template <class T> response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double dt) const {
+        const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;
+        const T of_spheres = (4.0 / 3.0 * std::numbers::pi * density) * (i3 * j3 / (i3 + j3));
+        const T reduced = mass > 0.0 ? T(0.5 * mass) : of_spheres;
+        const T damper = gamma * reduced * m.approach;
+        const T fn = o.depth > 0.0 ? kn * o.depth + damper : T(0.0);
+        response<T> r = tangential_spring(o, m, h, fn, T(ks), mu * (fn > 0.0 ? fn : -fn));
+        r.dissipated += o.depth > 0.0 ? damper * m.approach * dt : T(0.0);
+        return r;
+    }
+    /// Elastic energy of both springs (J).
+    constexpr double stored(const overlap<double>& o, const history& h) const {
+        return linear{kn, ks, mu}.stored(o, h);
+    }
+    constexpr double normal_stiffness(const overlap<double>&) const { return kn; }
+    constexpr double shear_stiffness(const overlap<double>&) const { return ks; }
+};
+
+static_assert(contact_law<linear_dashpot>);
+
+} // namespace clast::contacts
