@@ -266,6 +266,12 @@ template <triaxial_policies P> class engine {
         double lateral = 0.0;           ///< size of the lateral force (N)
         std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
 
+        /// Force (N) along the normal of one of its touches: lateral facets share by their parts of the way out.
+        double share(const boundaries::touch& t) const {
+            return t.facet < boundaries::first_lateral_facet
+                       ? platen[static_cast<std::size_t>(t.facet)]
+                       : lateral * t.depth / norm(boundaries::lateral_push(touch));
+        }
         template <class A> void archive(A& a) { a(pebble); }
     };
     template <class F> void each_wall_row(F&& f) const {
@@ -431,7 +437,7 @@ template <triaxial_policies P> class engine {
             std::array<const boundaries::touch*, 3> seen{};
             for (const boundaries::touch& t : w.touch) {
                 const bool platen = t.facet < boundaries::first_lateral_facet;
-                const double f = platen ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
+                const double f = w.share(t);
                 const double k = (platen ? settings.platen_contact : settings.lateral_contact)
                                      .normal_stiffness({0, 0, 1, platen ? t.depth : way, r, r});
                 if (platen || couplings == nullptr || w.touch.size == 1) {
@@ -748,11 +754,8 @@ template <triaxial_policies P> class engine {
                       p.x + (side * (p.radius - 0.5 * row.depth)) * row.normal);
                 } else {
                     const wall_row& w = wall[one.row() - list.size()];
-                    const double way = norm(boundaries::lateral_push(w.touch));
                     for (const boundaries::touch& t : w.touch) {
-                        const bool platen = t.facet < boundaries::first_lateral_facet;
-                        const double size = platen ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
-                        f(w.pebble, -1 - t.facet, size * t.normal,
+                        f(w.pebble, -1 - t.facet, w.share(t) * t.normal,
                           grains.pebbles[at(w.pebble)].x - grains.pebbles[at(w.pebble)].radius * t.normal);
                     }
                 }

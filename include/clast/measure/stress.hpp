@@ -27,13 +27,10 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
         f(-row.force, e.branch_of(row, pair), p.x + (p.radius - 0.5 * row.depth) * row.normal);
     });
     e.each_wall_row([&](const auto& w) {
-        const double way = norm(boundaries::lateral_push(w.touch));
         const std::size_t p = at(w.pebble);
         for (const boundaries::touch& t : w.touch) {
-            const double size =
-                t.facet < boundaries::first_lateral_facet ? w.platen[at(t.facet)] : w.lateral * t.depth / way;
             const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * t.normal;
-            f(-size * t.normal, point - e.centre_of(w.pebble), point);
+            f(-w.share(t) * t.normal, point - e.centre_of(w.pebble), point);
         }
     });
     if constexpr (Engine::breakable) {
