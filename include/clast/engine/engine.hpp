@@ -462,7 +462,10 @@ template <triaxial_policies P> class engine {
         for (const incidence::entry& one : of.of(body)) {
             const pebble_motion& p = grains.pebbles[at(one.pebble)];
             vec3 arm;
-            if constexpr (specimen_type::turns) arm = p.x - centre + ahead * p.v;
+            if constexpr (specimen_type::turns) {
+                arm = p.x - centre;
+                if (ahead != 0.0) arm += ahead * p.v;
+            }
             if (one.row() < contacts) {
                 const force_row& row = list.rows[one.row()];
                 const double side = one.side();
