@@ -224,10 +224,11 @@ template <triaxial_policies P> class triaxial_test {
         m.rings = s.rings;
         m.tiles_per_ring = s.tiles_per_ring;
         m.smallest_radius = smallest_radius(s.grain);
-        // Steps up to a grain. The paper's limit is the smallest particle, so that nothing slips out between two
-        // rings; here tiles have ledges and nothing can, and with the smallest pebble of 14B (4.6 mm) the confining
+        // Steps up to a grain, or a quarter of the radius in a slender specimen, where a tile that finds no grain would
+        // else dig through to the axis. The paper's limit is the smallest particle, so that nothing slips out between
+        // two rings; here tiles have ledges and nothing can, and with the smallest pebble of 14B (4.6 mm) the confining
         // stress of a bulging specimen was off by up to 0.8 %.
-        m.largest_gap = m.largest_step = s.grain.diameter;
+        m.largest_gap = m.largest_step = std::max(2.0 * m.smallest_radius, std::min(s.grain.diameter, 0.25 * m.radius));
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
         m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, r, r});
