@@ -6,6 +6,7 @@
 
 #include <clast/control/servo.hpp>
 
+#include <algorithm>
 namespace {
 
 constexpr double k = 2.0e6;
@@ -91,4 +92,29 @@ TEST_CASE("two servo walls that squeeze one soft column both reach the target wi
     }
     CHECK(column * (left + right) == Approx(5000).epsilon(1e-10));
     CHECK(left == right);
+}
+
+TEST_CASE(
+    "a servo that jumps over a narrow solution comes to rest on it, and one that follows a load keeps its speed") {
+    // two tiles and one pebble: the load is on whichever is ahead, shared only while they are within 0.1 um
+    clast::control::calm a, b;
+    double x = 0.3e-6, force_a = 0.0; // a ahead of b by x
+    for (int step = 0; step < 400; ++step) {
+        force_a = std::clamp(0.5 + x / 0.2e-6, 0.0, 1.0);
+        const double wanted = (0.5 - force_a) * 2.0;
+        x += (a.follow(wanted, 0.05) - b.follow(-wanted, 0.05)) * 7e-6;
+    }
+    CHECK(force_a == Approx(0.5).margin(0.01));
+    CHECK(a.limit < 0.05);
+    // without it: for ever between all and nothing
+    x = 0.3e-6;
+    for (int step = 0; step < 400; ++step) {
+        force_a = std::clamp(0.5 + x / 0.2e-6, 0.0, 1.0);
+        x += 2.0 * std::clamp((0.5 - force_a) * 2.0, -0.05, 0.05) * 7e-6;
+    }
+    CHECK(std::abs(force_a - 0.5) > 0.4);
+    // a load that goes away: full speed again within some steps
+    double v = 0.0;
+    for (int step = 0; step < 60; ++step) v = a.follow(1.0, 0.05);
+    CHECK(v == 0.05);
 }

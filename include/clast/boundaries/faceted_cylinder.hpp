@@ -196,7 +196,7 @@ template <moving_unit Unit> class faceted_cylinder {
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
         a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, volume_,
-          lateral_area_, lateral_speed_, latch_, chains_, backward_, counters_);
+          lateral_area_, lateral_speed_, calm_, latch_, chains_, backward_, counters_);
     }
 
   private:
@@ -260,6 +260,7 @@ template <moving_unit Unit> class faceted_cylinder {
     double volume_ = 0.0;
     double lateral_area_ = 0.0;
     double lateral_speed_ = 0.0;      // largest |velocity_|
+    std::vector<control::calm> calm_; // per unit
     std::vector<std::uint8_t> latch_; // columns first, then rings
     std::vector<control::chain> chains_;
     bool backward_ = false;
@@ -303,6 +304,7 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     const std::size_t tiles = index(rings_) * index(around_);
     apothem_.assign(tiles, set_.radius);
     velocity_.assign(tiles, 0.0);
+    calm_.resize(index(rings_) * index(units_around()));
     visible_.resize(tiles);
     ring_smallest_.resize(index(rings_));
     if constexpr (Unit != moving_unit::wall) {
@@ -468,11 +470,12 @@ void faceted_cylinder<Unit>::servo_wall(const drive& d, double dt, std::span<con
     for (int k = 0; k < rings_; ++k) {
         for (int i = 0; i < per_ring; ++i) {
             const unit_load& u = units_[index(k * per_ring + i)];
-            const double v =
+            const double wanted =
                 u.load.stiffness > 0.0
                     ? std::clamp(d.gain * group_.displacement(index(k * per_ring + i)) / dt, -d.max_speed, d.max_speed)
                     : control::inward_velocity(
                           {d.value * u.area, u.load.force, 0.0, set_.contact_stiffness_floor, dt, d.gain, d.max_speed});
+            const double v = calm_[index(k * per_ring + i)].follow(wanted, d.max_speed);
             const int tiles = per_ring == 1 ? around_ : 1;
             for (int t = i; t < i + tiles; ++t) velocity_[tile(k, t)] = v;
             ++counters_.tile_steps;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace clast::control {
 
@@ -27,5 +28,27 @@ inline double inward_velocity(const servo& s) {
     const double wanted = s.gain * (s.target_force - s.force) / (std::max(s.stiffness, s.stiffness_floor) * s.dt);
     return std::clamp(wanted, -s.max_speed, s.max_speed);
 }
+
+/// Keeps a servo from jumping to and fro over a solution that is narrower than its step.
+///
+/// Two tiles in one plane pass a pebble at their seam to each other over a fraction of a micrometre. While it rests on
+/// one of them alone neither servo knows of the other: the loaded tile retreats, the free one advances, and in the next
+/// step they have changed places, for ever. So where the velocity turns round at its limit the limit is halved, until a
+/// step ends in between; while it keeps its sign the limit grows back, by a fifth per step.
+struct calm {
+    double velocity = 0.0; ///< of the last step (m/s)
+    double limit = 0.0;    ///< present limit of the speed (m/s); 0: none yet
+
+    double follow(double wanted, double max_speed) {
+        if (!(limit > 0.0)) limit = max_speed;
+        const bool turned = wanted * velocity < 0.0;
+        if (turned && std::abs(velocity) >= 0.5 * limit)
+            limit = std::max(0.5 * limit, 1e-4 * max_speed);
+        else if (!turned)
+            limit = 1.2 * limit;
+        limit = std::min(limit, max_speed);
+        return velocity = std::clamp(wanted, -limit, limit);
+    }
+};
 
 } // namespace clast::control
