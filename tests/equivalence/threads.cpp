@@ -20,6 +20,7 @@ template <class Boundary> result run(int threads, double diameter, double height
     using P = toy::bundle<Boundary>;
     const auto setup = toy::setup<P>(threads, diameter, height);
     triaxial_test<P> test(setup, toy::stages(setup, strain));
+    test.sim().settings.contacts_per_thread = 8; // cut even toy scenes into ranges
     toy::recorder watch;
     REQUIRE(test.run(watch));
     const engine_totals& t = test.sim().totals();

@@ -48,7 +48,8 @@ template <class P> engine_settings<P> settings(double mu, double damping, double
             .safety = 0.2,
             .skin = skin,
             .largest_step = 2e-5,
-            .run = execution(threads)};
+            .run = execution(threads),
+            .contacts_per_thread = 8};
 }
 
 /// n^3 spheres of 9 to 10 mm on a grid of 22 mm around the origin, moving at random.

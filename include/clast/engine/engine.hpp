@@ -64,6 +64,7 @@ template <triaxial_policies P> struct engine_settings {
     double skin = 0.5e-3;       ///< m: pairs with a smaller gap are listed, > 0
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
     execution run = execution(1);
+    std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
 };
 
 /// State that only breakable specimens have.
@@ -1132,10 +1133,9 @@ template <triaxial_policies P> class engine {
     /// Cuts the bodies into one range for each thread, with about equally many contacts, and moves the contacts between
     /// two ranges to the front of the list. The sums of bodies keep their order.
     void split_ranges() {
-        constexpr std::size_t least = 2048; ///< contacts that are worth a thread
         const std::size_t n = slow_.size(), bodies = grains.body_count();
-        const std::size_t count =
-            std::clamp<std::size_t>(n / least, 1, static_cast<std::size_t>(settings.run.threads()));
+        const std::size_t count = std::clamp<std::size_t>(n / std::max<std::size_t>(1, settings.contacts_per_thread), 1,
+                                                          static_cast<std::size_t>(settings.run.threads()));
         ranges_.assign(count, {});
         std::vector<std::size_t> range_of(bodies, 0);
         {
