@@ -14,12 +14,12 @@ struct printer : clast::observer {
 int main() {
     using namespace clast::literals;
     clast::triaxial_test<my_policies> test({.grain = clast::shapes::tetrahedron_4(0.02),
-                                            .diameter = 8_cm,
-                                            .height = 12_cm,
+                                            .diameter = 10_cm,
+                                            .height = 15_cm,
                                             .confining = 500_kPa,
                                             .breakage = {},
                                             .replacement = {}},
-                                           clast::protocol::triaxial_compression(8_cm, 12_cm, 500_kPa, 1_percent));
+                                           clast::protocol::triaxial_compression(10_cm, 15_cm, 500_kPa, 1_percent));
     printer rows;
     test.run(rows);
 }

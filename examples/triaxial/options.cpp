@@ -574,8 +574,7 @@ std::string paper_preset_text() {
     };
     std::string text =
         "Table 1 of the paper (Granular Matter 2024, doi 10.1007/s10035-024-01441-3) and what else its test needs,\n"
-        "each with our reading. D1 to D15 number the decisions in the manual. These are the defaults of this "
-        "program.\n";
+        "each with our reading, numbered D1 to D15. These are the defaults of this program.\n";
     for (const entry& e : table) {
         if (*e.row) text += fmt::format("\n{}: {}\n", e.row, e.value);
         text += wrapped(fmt::format("{:<10} ", e.decision), e.reading);
