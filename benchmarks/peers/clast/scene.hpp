@@ -34,7 +34,7 @@ struct scene {
     clast::vec3 low, high; ///< periodic cell or walls (m)
     std::vector<sphere> spheres;
     std::int64_t steps = 0;
-    double skin = 0.05; ///< over the mean diameter
+    double skin = 0.025; ///< over the mean diameter; tuned as those of the others were
     int threads = 1;
 
     double operator[](const std::string& key) const {
