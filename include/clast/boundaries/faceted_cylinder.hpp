@@ -323,7 +323,8 @@ template <moving_unit Unit>
 double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, double ahead,
                                       std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
     const double reach = r + margin;
-    const auto [from, to] = rings_within(x.z - reach, x.z + reach);
+    const ring_range rings = rings_within(x.z - reach, x.z + reach);
+    const int from = rings.first, to = rings.last; // Clang's OpenMP cannot capture a structured binding
     double least = ring_smallest_[index(from)];
     for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
     least -= std::abs(ahead) * lateral_speed_;

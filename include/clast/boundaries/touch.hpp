@@ -85,9 +85,9 @@ struct coupling {
 struct facet_load {
     double force = 0.0;     ///< component, along the inward normal, of what the facet exerts on grains (N), >= 0
     double stiffness = 0.0; ///< d force / d inward displacement at fixed grains, summed over contacts (N/m)
-    std::array<double, 2>
-        edge{}; ///< vertical force (N, upward positive) of a lateral facet's lower and upper edge on grains
     std::int32_t contacts = 0;
+    /// Vertical force (N, upward positive) of a lateral facet's lower and upper edge on grains.
+    std::array<double, 2> edge{};
 
     /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
     constexpr void add(const touch& t, double force_on_pebble, double k) {
