@@ -71,12 +71,9 @@ int main(int argc, char** argv) try {
         grains.motion[static_cast<std::size_t>(g)].v = s.flow(centre);
     }
     const double mass = grains.mass_of(grains.grains[0]);
-    const clast::contacts::linear_dashpot law{s["kn"], s["kt"], s["mu"], s["gamma_n"], s["density"], mass};
-    clast::contacts::linear_dashpot wall = law;
-    wall.ks = wall.mu = 0.0;
-    wall.gamma *= 2.0; // m_eff = m
+    const auto law = peers::grain_law(s, mass);
     const std::size_t count = members.size();
-    clast::engine<clumps> e(peers::settings<clumps>(s, law, wall), std::move(grains), peers::walls(s));
+    clast::engine<clumps> e(peers::settings<clumps>(s, law, peers::wall_law(law)), std::move(grains), peers::walls(s));
     peers::drive_walls(e, s);
     peers::run_in_walls("clumps", e, s, count);
 } catch (const std::exception& error) {

@@ -16,9 +16,12 @@
 #include <fmt/core.h>
 
 #include <clast/boundaries/box.hpp>
+#include <clast/contacts/linear_dashpot.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/criteria/none.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/replacements/none.hpp>
 #include <clast/version.hpp>
 
 namespace peers {
@@ -134,6 +137,34 @@ template <class P, class Law> clast::engine_settings<P> settings(const scene& s,
             .largest_step = s["dt"],
             .run = clast::execution(s.threads)};
 }
+/// Spheres alone, under the law of these scenes.
+template <class Boundary> struct spheres_in : clast::triaxial_policies_default {
+    using specimen = clast::sphere_specimen;
+    using contact = clast::contacts::linear_dashpot;
+    using boundary = Boundary;
+    using breakage = clast::criteria::none;
+    using replacement = clast::replacements::none;
+};
+/// Law between two grains; mass: of every clump (kg), 0 for spheres.
+inline clast::contacts::linear_dashpot grain_law(const scene& s, double mass = 0.0) {
+    return {s["kn"], s["kt"], s["mu"], s["gamma_n"], s["density"], mass};
+}
+/// The same at a frictionless wall, where m_eff = m.
+inline clast::contacts::linear_dashpot wall_law(clast::contacts::linear_dashpot law) {
+    law.ks = law.mu = 0.0;
+    law.gamma *= 2.0;
+    return law;
+}
+/// The spheres of a scene around `origin`, in its flow.
+inline clast::sphere_specimen spheres_of(const scene& s, const clast::vec3& origin) {
+    clast::sphere_specimen spheres;
+    spheres.density = s["density"];
+    for (const sphere& one : s.spheres) {
+        const auto p = static_cast<std::size_t>(spheres.add(one.x - origin, one.r));
+        spheres.pebbles[p].v = s.flow(one.x);
+    }
+    return spheres;
+}
 inline clast::boundaries::box walls(const scene& s) {
     return clast::boundaries::box({s.low, s.high, s["kn"], s["kn"]});
 }
@@ -143,15 +174,18 @@ template <class Engine> void drive_walls(Engine& e, const scene& s) {
     e.drives.platens = {clast::boundaries::drive::mode::velocity, -0.5 * rate.z * l.z, 0.0, 0.5};
     e.drives.lateral = {clast::boundaries::drive::mode::velocity, -0.5 * rate.x * l.x, 0.0, 0.5};
 }
+template <class Engine> std::int64_t touching_pairs(const Engine& e) {
+    std::int64_t pairs = 0;
+    e.each_contact([&](const clast::force_row& row, const clast::pebble_pair&) { pairs += row.depth > 0.0; });
+    return pairs;
+}
 /// Runs the steps and prints the result with the stress on the walls.
 template <class Engine> void run_in_walls(const char* kind, Engine& e, const scene& s, std::size_t n) {
     double seconds = 0.0, cpu = 0.0;
     timed(
         s.steps, [&] { e.step(); }, seconds, cpu);
-    std::int64_t pairs = 0;
-    e.each_contact([&](const clast::force_row& row, const clast::pebble_pair&) { pairs += row.depth > 0.0; });
     const auto stress = [&](int axis) { return e.boundary.stress(e.loads(), axis); };
-    print(kind, s, n, seconds, cpu, {stress(0), stress(1), stress(2)}, pairs, e.totals().rebuilds);
+    print(kind, s, n, seconds, cpu, {stress(0), stress(1), stress(2)}, touching_pairs(e), e.totals().rebuilds);
 }
 
 } // namespace peers
