@@ -76,13 +76,7 @@ engine<brittle> pressed(engine_settings<brittle> s, double force) {
     const shape grain = shapes::tetrahedron_4(0.02);
     specimen sp = scenes::empty(grain);
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
-    double low = 0.0, high = 0.0;
-    for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
-        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
-    }
-    boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
-    c.bottom = low, c.top = high;
+    const boundaries::cylinder_settings c = scenes::cylinder_around(sp);
     engine<brittle> e(std::move(s), std::move(sp), boundaries::solid_strips(c));
     e.breakage_on = false;
     e.drives.platens.how = boundaries::drive::mode::velocity;

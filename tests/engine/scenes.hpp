@@ -2,6 +2,7 @@
 // Small scenes that several tests share: a handful of grains in a toy vessel.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -41,6 +42,19 @@ inline boundaries::cylinder_settings cylinder(double radius, double height, doub
     c.tiles_per_ring = 8;
     c.smallest_radius = smallest_radius;
     c.contact_stiffness_floor = contacts::linear::between(pebble, membrane).kn;
+    return c;
+}
+
+/// A cylinder whose platens touch the lowest and the highest pebble of a specimen around the origin, or reach into them
+/// by `squeeze` (m).
+inline boundaries::cylinder_settings cylinder_around(const specimen& sp, double squeeze = 0.0) {
+    double low = 0.0, high = 0.0;
+    for (const pebble_motion& p : sp.pebbles) {
+        low = std::min(low, p.x.z - p.radius);
+        high = std::max(high, p.x.z + p.radius);
+    }
+    boundaries::cylinder_settings c = cylinder(0.05, 0.02);
+    c.bottom = low + squeeze, c.top = high - squeeze;
     return c;
 }
 

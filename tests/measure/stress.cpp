@@ -100,13 +100,7 @@ TEST_CASE("bonds of a cluster carry the stress that its clump did") {
     const shape grain = shapes::tetrahedron_4(0.02);
     specimen sp = scenes::empty(grain);
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
-    double low = 0.0, high = 0.0;
-    for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
-        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
-    }
-    boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
-    c.bottom = low + 2e-5, c.top = high - 2e-5;
+    const boundaries::cylinder_settings c = scenes::cylinder_around(sp, 2e-5);
     engine<brittle> e(scenes::settings<brittle>(1e15), std::move(sp), boundaries::solid_strips(c));
     for (int k = 0; k < 3000; ++k) e.step();
     const mat3 clump = measure::love_weber(e, 1e-4);

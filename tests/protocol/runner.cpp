@@ -13,16 +13,14 @@
 
 #include <catch.hpp>
 
+#include "engine/scenes.hpp"
+
 using namespace clast;
 using namespace clast::literals;
 
 namespace {
 
-struct rigid : triaxial_policies_default {
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-    using boundary = boundaries::solid_strips;
-};
+using rigid = scenes::unbreakable<boundaries::solid_strips>;
 using test_type = triaxial_test<rigid>;
 
 triaxial_setup<rigid> setup() {

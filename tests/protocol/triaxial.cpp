@@ -11,15 +11,14 @@
 
 #include <catch.hpp>
 
+#include "engine/scenes.hpp"
+
 using namespace clast;
 using namespace clast::literals;
 
 namespace {
 
-struct rigid : triaxial_policies_default {
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
+using rigid = scenes::unbreakable<boundaries::tiles>;
 using setup_type = triaxial_setup<rigid>;
 
 setup_type good() {

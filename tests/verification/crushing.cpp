@@ -30,13 +30,7 @@ crushed crush(const quaternion& q, double strength, double trigger_force, double
     const shape grain = shapes::tetrahedron_4(0.02);
     specimen sp = scenes::empty(grain);
     sp.add(0, {}, q);
-    double low = 0.0, high = 0.0;
-    for (std::size_t p = 0; p < 4; ++p) {
-        low = std::min(low, sp.pebbles[p].x.z - sp.pebbles[p].radius);
-        high = std::max(high, sp.pebbles[p].x.z + sp.pebbles[p].radius);
-    }
-    boundaries::cylinder_settings c = scenes::cylinder(0.05, 0.02);
-    c.bottom = low, c.top = high;
+    const boundaries::cylinder_settings c = scenes::cylinder_around(sp);
     auto s = scenes::settings<brittle>(trigger_force / (0.9 * 0.02 * 0.02), strength);
     s.safety = safety;
     engine<brittle> e(s, std::move(sp), boundaries::solid_strips(c));
