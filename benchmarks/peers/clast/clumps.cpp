@@ -44,38 +44,13 @@ clast::shape overlapping(const std::vector<peers::sphere>& members) {
 
 int main(int argc, char** argv) try {
     const peers::scene s = peers::read(argc, argv);
-    clast::specimen grains;
-    grains.density = s["density"];
-    // every clump is the first one, turned: its orientation from its first three pebbles
-    std::vector<std::vector<peers::sphere>> members;
-    for (const peers::sphere& one : s.spheres) {
-        if (members.empty() || members.back()[0].owner != one.owner) members.emplace_back();
-        members.back().push_back(one);
-    }
-    grains.shapes.push_back(overlapping(members[0]));
-    const clast::shape& kind = grains.shapes[0];
-    const auto frame = [](const clast::vec3& a, const clast::vec3& b, const clast::vec3& c) {
-        const clast::vec3 e0 = clast::unit(b - a), e1 = clast::unit(clast::reject(c - a, e0));
-        return clast::transpose(clast::mat3{{e0, e1, clast::cross(e0, e1)}});
-    };
-    const clast::mat3 own = frame(kind.pebbles[0].offset, kind.pebbles[1].offset, kind.pebbles[2].offset);
-    for (const auto& m : members) {
-        clast::mat3 turn;
-        const clast::mat3 there = frame(m[0].x, m[1].x, m[2].x), back = clast::transpose(own);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                for (int k = 0; k < 3; ++k) turn(i, j) += there(i, k) * back(k, j);
-        const clast::quaternion q = clast::turning(turn);
-        const clast::vec3 centre = m[0].x - clast::rotate(q, kind.pebbles[0].offset);
-        const std::int32_t g = grains.add(0, centre, q);
-        grains.motion[static_cast<std::size_t>(g)].v = s.flow(centre);
-    }
+    const auto members = peers::by_owner(s);
+    clast::specimen grains = peers::grains_of(s, members, overlapping(members[0]));
     const double mass = grains.mass_of(grains.grains[0]);
     const auto law = peers::grain_law(s, mass);
-    const std::size_t count = members.size();
     clast::engine<clumps> e(peers::settings<clumps>(s, law, peers::wall_law(law)), std::move(grains), peers::walls(s));
     peers::drive_walls(e, s);
-    peers::run_in_walls("clumps", e, s, count);
+    peers::run_in_walls("clumps", e, s, members.size());
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

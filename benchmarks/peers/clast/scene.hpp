@@ -21,6 +21,7 @@
 #include <clast/core/vector.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/grains/shape.hpp>
 #include <clast/replacements/none.hpp>
 #include <clast/version.hpp>
 
@@ -125,12 +126,14 @@ inline void print(const char* kind, const scene& s, std::size_t n, double second
 }
 
 /// Settings of an engine at the step that all programs take.
-template <class P, class Law> clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wall) {
+template <class P, class Law>
+clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wall,
+                                   typename P::replacement replacement = {}) {
     return {.grain_contact = law,
             .platen_contact = wall,
             .lateral_contact = wall,
             .breakage = {},
-            .replacement = {},
+            .replacement = replacement,
             .damping = 0.0,
             .safety = 1.0,
             .skin = s.skin * s.mean_diameter(),
@@ -165,6 +168,41 @@ inline clast::sphere_specimen spheres_of(const scene& s, const clast::vec3& orig
     }
     return spheres;
 }
+/// The spheres of each clump or cluster.
+inline std::vector<std::vector<sphere>> by_owner(const scene& s) {
+    std::vector<std::vector<sphere>> members;
+    for (const sphere& one : s.spheres) {
+        if (members.empty() || members.back()[0].owner != one.owner) members.emplace_back();
+        members.back().push_back(one);
+    }
+    return members;
+}
+/// Grains that are all the first one, turned: their orientations from their first three pebbles. `kind` is the shape of
+/// the first one.
+inline clast::specimen grains_of(const scene& s, const std::vector<std::vector<sphere>>& members,
+                                 const clast::shape& kind) {
+    clast::specimen grains;
+    grains.density = s["density"];
+    grains.shapes.push_back(kind);
+    const auto frame = [](const clast::vec3& a, const clast::vec3& b, const clast::vec3& c) {
+        const clast::vec3 e0 = clast::unit(b - a), e1 = clast::unit(clast::reject(c - a, e0));
+        return clast::transpose(clast::mat3{{e0, e1, clast::cross(e0, e1)}});
+    };
+    const clast::mat3 back =
+        clast::transpose(frame(kind.pebbles[0].offset, kind.pebbles[1].offset, kind.pebbles[2].offset));
+    for (const auto& m : members) {
+        clast::mat3 turn;
+        const clast::mat3 there = frame(m[0].x, m[1].x, m[2].x);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k) turn(i, j) += there(i, k) * back(k, j);
+        const clast::quaternion q = clast::turning(turn);
+        const clast::vec3 centre = m[0].x - clast::rotate(q, kind.pebbles[0].offset);
+        const std::int32_t g = grains.add(0, centre, q);
+        grains.motion[static_cast<std::size_t>(g)].v = s.flow(centre);
+    }
+    return grains;
+}
 inline clast::boundaries::box walls(const scene& s) {
     return clast::boundaries::box({s.low, s.high, s["kn"], s["kn"]});
 }
@@ -176,7 +214,13 @@ template <class Engine> void drive_walls(Engine& e, const scene& s) {
 }
 template <class Engine> std::int64_t touching_pairs(const Engine& e) {
     std::int64_t pairs = 0;
-    e.each_contact([&](const clast::force_row& row, const clast::pebble_pair&) { pairs += row.depth > 0.0; });
+    e.each_contact([&](const clast::force_row& row, const clast::pebble_pair& pair) {
+        bool same = false; // balls of one cluster
+        if constexpr (requires { e.grains.mother; })
+            same =
+                e.grains.mother[static_cast<std::size_t>(pair.i)] == e.grains.mother[static_cast<std::size_t>(pair.j)];
+        pairs += row.depth > 0.0 && !same;
+    });
     return pairs;
 }
 /// Runs the steps and prints the result with the stress on the walls.
