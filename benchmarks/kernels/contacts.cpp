@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cost of contact laws: a strip in the first cache, and strips of a list with gathering and rows.
+// Cost of contact laws: a strip in the first cache, and strips of a list with gathering and the sums of bodies.
 // A law of your own: #include its header and add one line, BENCHMARK_LAW(your_law{...}).
+#include <algorithm>
 #include <cstddef>
 #include <random>
 #include <span>
@@ -38,23 +39,30 @@ template <class Law> struct chain {
 
 template <class Law> void in_cache(benchmark::State& state, Law law) {
     chain<Law> c(128);
-    strip<Law> s;
-    gather(s, std::span(c.list.pairs).first(strip<Law>::length), c.pebbles.data(),
-           [](std::size_t, const pebble_pair&, vec3&, vec3&) {});
+    strip<Law, pebble_motion> s;
+    gather(s, std::span<const pebble_pair>(c.list.pairs).first(s.length), c.pebbles.data());
+    for (auto& past : s.past) past = {};
     for (auto _ : state) {
-        evaluate(s, law, 1e-6);
+        evaluate(s, s.past, law, 1e-6);
         benchmark::DoNotOptimize(s.fx[0]);
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(strip<Law>::length));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.length));
 }
 
 template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
-    strip<Law> s;
+    strip<Law, pebble_motion> s;
+    std::vector<body_load> load(c.pebbles.size());
     for (auto _ : state) {
-        evaluate(c.list, 0, c.list.size(), c.pebbles.data(), law, 1e-6, s,
-                 [](std::size_t, const pebble_pair&, vec3&, vec3&) {});
-        benchmark::DoNotOptimize(c.list.rows.data());
+        for (std::size_t at = 0; at < c.list.size(); at += s.length) {
+            evaluate(s, c.list, at, std::min(at + s.length, c.list.size()), c.pebbles.data(), law, 1e-6,
+                     [](auto&, std::size_t) {});
+            each_load(s, [&](std::size_t k, const contact_load& one) {
+                one.add_to_i(load[static_cast<std::size_t>(c.list.pairs[at + k].i)]);
+                one.add_to_j(load[static_cast<std::size_t>(c.list.pairs[at + k].j)]);
+            });
+        }
+        benchmark::DoNotOptimize(load.data());
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));
 }

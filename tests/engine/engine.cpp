@@ -193,9 +193,10 @@ TEST_CASE("every overlap at the time of a step, of pebbles or with a facet, has 
                 if (e.grains.owner[i] == e.grains.owner[j]) continue;
                 if (norm(x[j] - x[i]) >= e.grains.pebbles[i].radius + e.grains.pebbles[j].radius) continue;
                 ++met;
-                const std::size_t at =
-                    e.slow_contacts().find({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
-                if (at == e.slow_contacts().size() || !(e.slow_contacts().rows[at].depth > 0.0)) ++missed;
+                const auto& list = e.slow_contacts();
+                const pebble_pair pair{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
+                const auto at = scenes::position(list, pair);
+                if (at == list.size() || !(list.rows[at].depth > 0.0)) ++missed;
             }
             if (boundary.touch(x[i], e.grains.pebbles[i].radius).size == 0) continue;
             ++walls;

@@ -46,7 +46,19 @@ struct scene {
     }
 };
 
-void as_is(std::size_t, const pebble_pair&, vec3&, vec3&) {}
+using work_strip = strip<linear, pebble_motion>;
+
+/// Contacts [begin, end) of a scene by strips, rows kept.
+template <class Adjust> void evaluate_all(scene& s, std::size_t begin, std::size_t end, Adjust&& adjust) {
+    work_strip work;
+    for (std::size_t at = begin; at < end; at += work_strip::length) {
+        evaluate(work, s.list, at, std::min(end, at + work_strip::length), s.pebbles.data(), s.law, 1e-5, adjust);
+        keep_rows(work, s.list, at);
+    }
+}
+void evaluate_all(scene& s, std::size_t begin, std::size_t end) {
+    evaluate_all(s, begin, end, [](work_strip&, std::size_t) {});
+}
 
 bool same_bits(const list_type& a, const list_type& b) {
     return std::memcmp(a.rows.data(), b.rows.data(), a.size() * sizeof(force_row)) == 0 &&
@@ -59,8 +71,7 @@ TEST_CASE("a strip answers every contact as the law does alone, and open pairs e
     scene s(200);
     const list_type before = s.list;
     const double h = 1e-5;
-    strip<linear> work;
-    evaluate(s.list, 0, s.list.size(), s.pebbles.data(), s.law, h, work, as_is);
+    evaluate_all(s, 0, s.list.size());
     std::size_t touching = 0, sheared = 0;
     double worst = 0.0;
     for (std::size_t k = 0; k < s.list.size(); ++k) {
@@ -100,13 +111,11 @@ TEST_CASE("a strip answers every contact as the law does alone, and open pairs e
 
 TEST_CASE("where a list is cut into strips does not change a bit") {
     scene whole(200), parts(200);
-    strip<linear> work;
-    evaluate(whole.list, 0, 200, whole.pebbles.data(), whole.law, 1e-5, work, as_is);
+    evaluate_all(whole, 0, 200);
     for (std::size_t begin = 0, n = 1; begin < 200; begin += n, n = n * 2 + 1)
-        evaluate(parts.list, begin, std::min<std::size_t>(200, begin + n), parts.pebbles.data(), parts.law, 1e-5, work,
-                 as_is);
+        evaluate_all(parts, begin, std::min<std::size_t>(200, begin + n));
     CHECK(same_bits(whole.list, parts.list));
-    evaluate(parts.list, 3, 4, parts.pebbles.data(), parts.law, 1e-5, work, as_is);
+    evaluate_all(parts, 3, 4);
     CHECK_FALSE(same_bits(whole.list, parts.list)); // the comparison sees a single contact
 }
 
@@ -115,8 +124,7 @@ TEST_CASE("a contact asleep behind a bond keeps its history and exerts nothing")
     s.list.history[4] = {1.0, 2.0, 3.0};
     s.list.bonded.assign(10, 0);
     s.list.bonded[4] = 1;
-    strip<linear> work;
-    evaluate(s.list, 0, 10, s.pebbles.data(), s.law, 1e-5, work, as_is);
+    evaluate_all(s, 0, 10);
     CHECK(s.list.history[4].z == 3.0);
     CHECK(s.list.rows[4].force == vec3{});
     CHECK(s.list.rows[4].depth == 0.0);
@@ -126,10 +134,56 @@ TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
     scene near(20), far(20);
     const vec3 edge{3.0, -2.0, 0.5}, speed{0.1, 0.0, -0.3};
     for (std::size_t k = 1; k < far.pebbles.size(); k += 2) far.pebbles[k].x -= edge, far.pebbles[k].v -= speed;
-    strip<linear> work;
-    evaluate(near.list, 0, 20, near.pebbles.data(), near.law, 1e-5, work, as_is);
-    evaluate(far.list, 0, 20, far.pebbles.data(), far.law, 1e-5, work,
-             [&](std::size_t, const pebble_pair&, vec3& d, vec3& v) { d += edge, v += speed; });
+    evaluate_all(near, 0, 20);
+    evaluate_all(far, 0, 20, [&](work_strip& s, std::size_t) {
+        for (std::size_t k = 0; k < s.size; ++k) {
+            s.dx[k] += edge.x, s.dy[k] += edge.y, s.dz[k] += edge.z;
+            s.vx[k] += speed.x, s.vy[k] += speed.y, s.vz[k] += speed.z;
+        }
+    });
     for (std::size_t k = 0; k < 20; ++k)
         CHECK(norm(near.list.rows[k].force - far.list.rows[k].force) <= 1e-8 * norm(near.list.rows[k].force));
+}
+
+TEST_CASE("loads of both bodies are the row's force and its moments about their centres") {
+    scene s(70); // a whole strip and a part of one
+    std::vector<clump_pebble> clumps;
+    std::vector<vec3> centre;
+    for (std::size_t p = 0; p < s.pebbles.size(); ++p) {
+        const double u = static_cast<double>(p);
+        const vec3 arm{0.01 * std::sin(u), 0.02 * std::cos(3.0 * u), -0.01 * std::sin(2.0 * u)};
+        clumps.push_back({s.pebbles[p], arm});
+        centre.push_back(s.pebbles[p].x - arm);
+    }
+    strip<linear, clump_pebble> work;
+    std::size_t touching = 0, booked = 0;
+    for (std::size_t begin = 0; begin < 70; begin += 64) {
+        const std::size_t end = std::min<std::size_t>(70, begin + 64);
+        evaluate(work, s.list, begin, end, clumps.data(), s.law, 1e-5, [](auto&, std::size_t) {});
+        keep_rows(work, s.list, begin);
+        std::size_t next = 0;
+        each_load(work, [&](std::size_t k, const contact_load& load) {
+            CHECK(k == next++);
+            const force_row& row = s.list.rows[begin + k];
+            const std::size_t i = 2 * (begin + k), j = i + 1;
+            const vec3 at = clumps[i].x + (clumps[i].radius - 0.5 * row.depth) * row.normal;
+            body_load a, b;
+            load.add_to_i(a), load.add_to_j(b);
+            const auto is = [](const lane4& v, const vec3& w) {
+                return norm(vec3{v[0], v[1], v[2]} - w) <= 1e-12 * (norm(w) + 1e-9);
+            };
+            CHECK(is(a.force, row.force));
+            CHECK(is(b.force, -row.force));
+            CHECK(norm(vec3{a.moment[0], a.moment[1], a.moment[2]} - cross(at - centre[i], row.force)) <=
+                  1e-12 * norm(row.force));
+            CHECK(norm(vec3{b.moment[0], b.moment[1], b.moment[2]} + cross(at - centre[j], row.force)) <=
+                  1e-12 * norm(row.force));
+            CHECK(a.moment[3] == row.dissipated);
+            CHECK(b.moment[3] == 0.0);
+            touching += row.depth > 0.0, booked += row.dissipated > 0.0;
+        });
+        CHECK(next == end - begin);
+    }
+    CHECK(touching > 20);
+    CHECK(booked > 5);
 }

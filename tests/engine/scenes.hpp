@@ -117,4 +117,9 @@ engine<P> packed(engine_settings<P> s, const shape& grain, std::size_t count, do
     return e;
 }
 
+/// Place of a pair in a contact list, or its size.
+template <class List> std::size_t position(const List& list, const clast::pebble_pair& pair) {
+    return static_cast<std::size_t>(std::find(list.pairs.begin(), list.pairs.end(), pair) - list.pairs.begin());
+}
+
 } // namespace clast::scenes

@@ -14,9 +14,9 @@
 
 namespace clast {
 
-/// What contacts read of a pebble, side by side in memory: two lines of it make a contact. Velocities are those of the
+/// What contacts read of a pebble, side by side in memory in three blocks of four numbers. Velocities are those of the
 /// pebble's own centre.
-struct pebble_motion {
+struct alignas(32) pebble_motion {
     vec3 x;                       ///< centre (m)
     double radius = 0.0;          ///< m
     vec3 v;                       ///< velocity of the centre (m/s)
@@ -24,6 +24,13 @@ struct pebble_motion {
     vec3 w;                       ///< spin of its body (rad/s, world axes)
     double inverse_inertia = 0.0; ///< of the pebble as a ball (1/(kg m^2))
 };
+
+/// A pebble of a body whose centre is elsewhere: two lines of a cache.
+struct alignas(64) clump_pebble : pebble_motion {
+    vec3 arm; ///< from the centre of its clump to its own (m); 0 for a ball
+    double spare = 0.0;
+};
+static_assert(sizeof(pebble_motion) == 12 * sizeof(double) && sizeof(clump_pebble) == 16 * sizeof(double));
 
 /// What one contact exerts in this step; bodies sum their rows in a fixed order. The force acts in the middle of the
 /// overlap: at x_i + (r_i - depth / 2) normal, which is x_j - (r_j - depth / 2) normal.
@@ -47,8 +54,8 @@ constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
     return scale(edges, {steps(image % 3), steps(image / 3 % 3), steps(image / 9)});
 }
 
-/// Half list sorted by (i, j); an engine may bring contacts that threads share to the front. An empty history
-/// (frictionless law) takes no memory.
+/// Half list of contacts. An engine sorts it and may bring contacts that threads share to the front. An empty history
+/// (frictionless law) takes no memory; rows are there after a step that was asked for them, and empty otherwise.
 template <class History> struct contact_list {
     static constexpr bool remembers = !std::is_empty_v<History>;
 
@@ -59,22 +66,28 @@ template <class History> struct contact_list {
     std::vector<force_row> rows;
 
     std::size_t size() const { return pairs.size(); }
+    /// Empty rows and histories for the pairs.
     void resize_rows() {
         rows.assign(pairs.size(), {});
-        if constexpr (remembers) history.resize(pairs.size());
+        if constexpr (remembers) history.assign(pairs.size(), {});
         bonded.clear();
     }
     bool is_asleep(std::size_t k) const { return !bonded.empty() && bonded[k] != 0; }
-    /// Position of a pair, or size() if it is not listed.
-    std::size_t find(const pebble_pair& p) const {
-        const auto it = std::lower_bound(pairs.begin(), pairs.end(), p);
+    /// Position of a pair, or size() if it is not listed. before(a, b): the order in which the list was sorted.
+    template <class Order> std::size_t find(const pebble_pair& p, Order&& before) const {
+        const auto it = std::lower_bound(pairs.begin(), pairs.end(), p, before);
         return it != pairs.end() && *it == p ? static_cast<std::size_t>(it - pairs.begin()) : pairs.size();
     }
-
-    /// Calls f(k) in the order of the pairs, of a list whose first `shared` pairs and whose others are sorted each.
-    template <class F> void each_sorted(std::size_t shared, F&& f) const {
-        std::size_t a = 0, b = shared;
-        while (a < shared || b < size()) f(b == size() || (a < shared && pairs[a] < pairs[b]) ? a++ : b++);
+    /// Takes over the histories of the pairs that `old` has, too; both lists are sorted by `before`.
+    template <class Order> void take_histories(const contact_list& old, Order&& before) {
+        if constexpr (remembers) {
+            std::size_t k = 0;
+            for (std::size_t was = 0; was < old.size(); ++was) {
+                while (k < size() && before(pairs[k], old.pairs[was])) ++k;
+                if (k == size()) return;
+                if (pairs[k] == old.pairs[was]) history[k] = old.history[was];
+            }
+        }
     }
     /// The contact that shall stand at k stands at order[k].
     void reorder(std::span<const std::uint32_t> order) {
@@ -82,7 +95,8 @@ template <class History> struct contact_list {
             auto old = v;
             for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
         };
-        permute(pairs), permute(rows);
+        permute(pairs);
+        if (!rows.empty()) permute(rows);
         if constexpr (remembers) permute(history);
         if (!bonded.empty()) permute(bonded);
         if (!image.empty()) permute(image);
@@ -91,7 +105,7 @@ template <class History> struct contact_list {
     template <class A> void archive(A& a) {
         a(pairs, image, bonded);
         if constexpr (remembers) a(history);
-        rows.resize(pairs.size()); // written anew by the next step
+        if (rows.size() != pairs.size()) rows.clear(); // written anew by the next step
     }
 };
 

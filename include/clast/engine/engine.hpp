@@ -6,15 +6,17 @@
 //       balls sum their rows in one fixed order, are damped and integrated; clusters sub-cycle their bonds
 //   slow facets (clump against facet)                                                                  rows at t_n
 //   servo
-//   sweep: slow contacts (clump against clump) in strips                                               rows at t_n
-//       behind them clumps sum slow rows and the mean of the fast ones, are looked at by the criterion every few steps,
-//       damped and integrated, while the rows are still at hand
+//   sweep: slow contacts (clump against clump) in strips, added to the loads of their bodies
+//       behind them clumps add walls and the mean of the fast rows, are looked at by the criterion every few steps,
+//       damped and integrated, while everything is still at hand
 //   boundary moves; replacement
 //
-// Sweep: pairs are sorted by their first body, so when the strips have passed the pairs of body i, every contact of i
-// has been evaluated, as the first body or as the second, and i may move: no later contact reads it. With several
-// threads each sweeps a range of bodies of its own; contacts between two ranges are evaluated before. Every body sums
-// its rows in the order of their pebbles, so neither threads nor ranges can change a bit.
+// Sweep: pairs are sorted by their first body, then by their second pebble. So when the strips have passed the pairs of
+// body i, every contact of i has been evaluated, as the first body or as the second, and i may move: no later contact
+// reads it. With several threads each sweeps a range of bodies of its own; contacts between two ranges are evaluated
+// before. In the order of the list the contacts of a body with lower ranges come first and those with higher ranges
+// last, so adding the former before the sweep of a range and the latter when a body moves leaves every sum as one
+// thread would have it, to the last bit.
 //
 // Multirate: a contact that involves a ball is integrated with the step that the lightest ball needs, over the span
 // from t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks
@@ -160,27 +162,11 @@ template <triaxial_policies P> class engine {
 
     // ---- stepping -------------------------------------------------------------------------------------------------
 
-    /// Advances by one step of dt(). Throws run_error if a number stops being finite or a grain leaves the boundary.
-    void step() {
-        if (must_rebuild_) rebuild();
-        if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
-        if constexpr (breakable)
-            if (has_light_bodies()) advance_light();
-        settings.run.for_each(slow_wall_.size(), [&](std::size_t k) { evaluate_wall(slow_wall_[k], dt_, 0.0); });
-        control();
-        const double moved = sweep();
-        if constexpr (periodic) add_work_of_images();
-        if constexpr (periodic)
-            if (totals_.steps % boundary_type::look == 0) observe_stress();
-        finish_boundary();
-        if constexpr (breakable) {
-            broken_.lag = 0.5 * dt_;
-            place_balls();
-            replace_marked();
-        }
-        totals_.time += dt_;
-        ++totals_.steps;
-        check_displacements(moved);
+    /// Advances by `count` steps of dt(), which costs less than as many calls: rows (each_contact) are those of the
+    /// last step only. Throws run_error if a number stops being finite or a grain leaves the boundary.
+    void step(std::int64_t count = 1) {
+        for (; count > 1; --count) one_step(false);
+        if (count == 1) one_step(true);
     }
 
     double dt() const { return dt_; }
@@ -233,17 +219,18 @@ template <triaxial_policies P> class engine {
         a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_);
         if constexpr (breakable) a(fast_, fast_wall_, fast_of_, ball_reference_, broken_);
         split_ranges();                                                  // as the threads of this run ask for
+        fast_.rows.resize(fast_.size());                                 // written anew by the next step
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
         work_loads_.resize(loads_.size());
     }
 
     // ---- what measurements read ----------------------------------------------------------------------------------
 
-    /// Calls f(row, pair) for all listed contacts, in an order that does not depend on threads; body ids of a pair
-    /// through grains.owner.
+    /// Calls f(row, pair) for all contacts listed in the last step, in an order that does not depend on threads; body
+    /// ids of a pair through grains.owner. Before the first step there are none.
     template <class F> void each_contact(F&& f) const {
-        slow_.each_sorted(slow_shared_, [&](std::size_t k) { f(slow_.rows[k], slow_.pairs[k]); });
-        fast_.each_sorted(0, [&](std::size_t k) { f(fast_.rows[k], fast_.pairs[k]); });
+        if (!slow_.rows.empty()) each_slow([&](std::size_t k) { f(slow_.rows[k], slow_.pairs[k]); });
+        for (std::size_t k = 0; k < fast_.size(); ++k) f(fast_.rows[k], fast_.pairs[k]);
     }
     /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
     /// faces of a periodic cell, too.
@@ -292,19 +279,18 @@ template <triaxial_policies P> class engine {
     /// Energy in contacts, facets and bonds (J).
     double elastic_energy() const {
         double e = 0.0;
-        const auto add = [&](const contact_list<history>& list, std::size_t shared) {
-            list.each_sorted(shared, [&](std::size_t k) {
-                if (list.is_asleep(k)) return;
-                const auto& pr = list.pairs[k];
-                const double d = norm(apart(list, k));
-                const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius;
-                const history none{};
-                const history* h = &none;
-                if constexpr (contact_list<history>::remembers) h = &list.history[k];
-                e += settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
-            });
+        const auto add = [&](const contact_list<history>& list, std::size_t k) {
+            if (list.is_asleep(k)) return;
+            const auto& pr = list.pairs[k];
+            const double d = norm(apart(list, k));
+            const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius;
+            const history none{};
+            const history* h = &none;
+            if constexpr (contact_list<history>::remembers) h = &list.history[k];
+            e += settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
         };
-        add(slow_, slow_shared_), add(fast_, 0);
+        each_slow([&](std::size_t k) { add(slow_, k); });
+        for (std::size_t k = 0; k < fast_.size(); ++k) add(fast_, k);
         each_wall_row([&](const wall_row& w) {
             const double r = grains.pebbles[at(w.pebble)].radius;
             const double lateral = norm(boundaries::lateral_push(w.touch));
@@ -332,6 +318,23 @@ template <triaxial_policies P> class engine {
     }
 
   private:
+    using pebble_type = typename decltype(specimen_type::pebbles)::value_type;
+    using strip_type = strip<contact, pebble_type>;
+
+    /// f(k) for the slow contacts in the order that one thread gives them.
+    template <class F> void each_slow(F&& f) const {
+        std::size_t a = 0, b = slow_shared_;
+        while (a < slow_shared_ || b < slow_.size())
+            f(b == slow_.size() || (a < slow_shared_ && slow_order_[a] < slow_order_[b]) ? a++ : b++);
+    }
+    /// Order of the lists: by first body, second pebble, first pebble.
+    auto pair_order() const {
+        return [this](const pebble_pair& a, const pebble_pair& b) {
+            const std::size_t ga = grains.group_of(a.i), gb = grains.group_of(b.i);
+            return ga != gb ? ga < gb : a.j != b.j ? a.j < b.j : a.i < b.i;
+        };
+    }
+
     static constexpr std::int64_t step_interval = 50; ///< steps between estimates of the time step
     static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
     std::size_t ball(std::int32_t pebble) const { return grains.grain_count() + at(pebble); }
@@ -340,41 +343,89 @@ template <triaxial_policies P> class engine {
         return false;
     }
 
+    // ---- one step -------------------------------------------------------------------------------------------------
+
+    void one_step(bool keep_rows) {
+        if (must_rebuild_) rebuild();
+        if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
+        if constexpr (breakable)
+            if (has_light_bodies()) advance_light();
+        settings.run.for_each(slow_wall_.size(), [&](std::size_t k) { evaluate_wall(slow_wall_[k], dt_, 0.0); });
+        control();
+        bool observe = false;
+        if constexpr (periodic) observe = totals_.steps % boundary_type::look == 0;
+        if constexpr (breakable && has_criterion)
+            look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
+        const double moved = sweep(keep_rows || observe || look_);
+        if constexpr (periodic) {
+            add_work_of_images();
+            if (observe) observe_stress();
+        }
+        finish_boundary();
+        if constexpr (breakable) {
+            broken_.lag = 0.5 * dt_;
+            place_balls();
+            replace_marked();
+        }
+        totals_.time += dt_;
+        ++totals_.steps;
+        check_displacements(moved);
+    }
+
     // ---- forces ---------------------------------------------------------------------------------------------------
 
     /// Rows of the fast list and its wall, `ahead` seconds from t_n: clumps are where their velocity takes them, balls
     /// have been placed by their sub-step. h: span since the last evaluation.
     void evaluate_fast(double h, double ahead) {
         const auto owned_by_clump = [&](std::int32_t p) { return at(grains.owner[at(p)]) < grains.grain_count(); };
-        const auto place = [&](std::size_t, const pebble_pair& p, vec3& d, vec3&) {
-            if (owned_by_clump(p.i)) d -= ahead * grains.pebbles[at(p.i)].v;
-            if (owned_by_clump(p.j)) d += ahead * grains.pebbles[at(p.j)].v;
+        const auto place = [&](strip_type& s, std::size_t begin) {
+            for (std::size_t k = 0; k < s.size; ++k) {
+                const pebble_pair& p = fast_.pairs[begin + k];
+                vec3 by;
+                if (owned_by_clump(p.i)) by -= ahead * grains.pebbles[at(p.i)].v;
+                if (owned_by_clump(p.j)) by += ahead * grains.pebbles[at(p.j)].v;
+                s.dx[k] += by.x, s.dy[k] += by.y, s.dz[k] += by.z;
+            }
         };
-        evaluate_strips(fast_, 0, fast_.size(), h, place);
+        each_strip(fast_.size(), [&](std::size_t begin, std::size_t end, strip_type& s) {
+            evaluate(s, fast_, begin, end, grains.pebbles.data(), settings.grain_contact, h, place);
+            keep_rows(s, fast_, begin);
+        });
         settings.run.for_each(fast_wall_.size(), [&](std::size_t k) { evaluate_wall(fast_wall_[k], h, ahead); });
     }
-    /// Strips of a part of a list, side by side on all threads.
-    template <class Adjust>
-    void evaluate_strips(contact_list<history>& list, std::size_t begin, std::size_t end, double h, Adjust&& adjust) {
-        constexpr std::size_t length = strip<contact>::length;
-        settings.run.for_each((end - begin + length - 1) / length,
+    /// f(begin, end, strip) for the first n contacts of a list by strips, side by side on all threads.
+    template <class F> void each_strip(std::size_t n, F&& f) {
+        constexpr std::size_t length = strip_type::length;
+        settings.run.for_each((n + length - 1) / length,
                               [&](std::size_t k) {
-                                  strip<contact> s;
-                                  const std::size_t from = begin + k * length;
-                                  evaluate(list, from, std::min(end, from + length), grains.pebbles.data(),
-                                           settings.grain_contact, h, s, adjust);
+                                  strip_type s;
+                                  f(k * length, std::min(n, (k + 1) * length), s);
                               },
                               4);
     }
-    /// What the sweep does to distance and velocity of pair k of the slow list: nothing but in a periodic cell.
-    auto to_image() const {
-        if constexpr (periodic)
-            return [this](std::size_t k, const pebble_pair&, vec3& d, vec3& v) {
-                d += shift_[slow_.image[k]];
-                v += shift_speed_[slow_.image[k]];
+    /// Slow contacts begin to end - 1, at most a strip.
+    void evaluate_slow(strip_type& s, std::size_t begin, std::size_t end, bool keep) {
+        if constexpr (periodic) {
+            auto first =
+                static_cast<std::size_t>(std::lower_bound(across_.begin(), across_.end(), begin) - across_.begin());
+            const auto each_across = [&](auto&& f) {
+                for (std::size_t a = first; a < across_.size() && across_[a] < end; ++a) f(a, across_[a] - begin);
             };
-        else
-            return [](std::size_t, const pebble_pair&, vec3&, vec3&) {};
+            evaluate(s, slow_, begin, end, grains.pebbles.data(), settings.grain_contact, dt_,
+                     [&](strip_type& filled, std::size_t) {
+                         each_across([&](std::size_t, std::size_t k) {
+                             const std::uint8_t image = slow_.image[begin + k];
+                             filled.dx[k] += shift_[image].x, filled.vx[k] += shift_speed_[image].x;
+                             filled.dy[k] += shift_[image].y, filled.vy[k] += shift_speed_[image].y;
+                             filled.dz[k] += shift_[image].z, filled.vz[k] += shift_speed_[image].z;
+                         });
+                     });
+            each_across([&](std::size_t a, std::size_t k) { across_force_[a] = {s.fx[k], s.fy[k], s.fz[k]}; });
+        } else {
+            evaluate(s, slow_, begin, end, grains.pebbles.data(), settings.grain_contact, dt_,
+                     [](strip_type&, std::size_t) {});
+        }
+        if (keep) keep_rows(s, slow_, begin);
     }
     void set_shifts() {
         if constexpr (periodic)
@@ -489,11 +540,15 @@ template <triaxial_policies P> class engine {
     // ---- integration ----------------------------------------------------------------------------------------------
 
     /// Evaluates all slow contacts and moves all swept bodies; returns the largest displacement since the last rebuild.
-    double sweep() {
+    double sweep(bool keep) {
         set_shifts();
-        evaluate_strips(slow_, 0, slow_shared_, dt_, to_image());
+        if (keep) slow_.rows.resize(slow_.size());
+        each_strip(slow_shared_, [&](std::size_t begin, std::size_t end, strip_type& s) {
+            evaluate_slow(s, begin, end, keep);
+            each_load(s, [&](std::size_t k, const contact_load& load) { shared_load_[begin + k] = load; });
+        });
         settings.run.for_each(
-            ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r]); }, 1);
+            ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r], keep); }, 1);
         double moved = 0.0;
         for (const body_range& r : ranges_) moved = std::max(moved, r.moved);
         if constexpr (breakable && has_criterion)
@@ -513,41 +568,57 @@ template <triaxial_policies P> class engine {
     struct body_range {
         std::size_t first_body = 0, last_body = 0;
         std::size_t first_row = 0, last_row = 0;
-        double moved = 0.0; ///< largest displacement of a surface in it (m)
+        std::size_t first_shared = 0;        ///< of the shared contacts whose first body is in the range
+        std::size_t first_wall = 0;          ///< of the wall rows of its bodies
+        std::vector<std::uint32_t> incoming; ///< shared contacts whose second body is in it
+        double moved = 0.0;                  ///< largest displacement of a surface in it (m)
         std::vector<birth_certificate> marked;
     };
 
-    void sweep_range(body_range& r) {
-        constexpr std::size_t chunk = 32;
-        strip<contact> s;
-        bool look = false;
-        if constexpr (breakable && has_criterion)
-            look = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
-        std::size_t row = r.first_row;
+    void sweep_range(body_range& r, bool keep) {
+        for (std::uint32_t k : r.incoming) shared_load_[k].add_to_j(acting_[grains.body_of(slow_.pairs[k].j)]);
+        strip_type s;
+        std::size_t row = r.first_row, body = r.first_body, shared = r.first_shared, wall = r.first_wall;
         r.moved = 0.0;
-        for (std::size_t from = r.first_body; from < r.last_body; from += chunk) {
-            const std::size_t to = std::min(from + chunk, r.last_body);
-            while (row < own_end_[to - 1]) {
-                const std::size_t end = std::min(row + strip<contact>::length, r.last_row);
-                evaluate(slow_, row, end, grains.pebbles.data(), settings.grain_contact, dt_, s, to_image());
-                row = end;
-            }
-            for (std::size_t g = from; g < to; ++g) {
-                if (!grains.is_swept(g)) continue;
-                load_sum load = sum_rows(slow_of_, g, slow_, slow_wall_, grains.centre(g), 0.0);
-                if constexpr (breakable) {
-                    if (broken_.halo[g] != 0) {
-                        load.force += broken_.fast_load[g].force;
-                        load.moment += broken_.fast_load[g].moment;
-                        load.dissipated += broken_.fast_load[g].dissipated;
-                    }
-                    if (look && is_critical(g)) r.marked.push_back(certificate(g));
-                }
-                grains.advance(g, load, dt_, settings.damping);
-                grains.place(g, [&](std::size_t p) { return needed_[p] != 0; });
-                r.moved = std::max(r.moved, displacement(g));
-            }
+        for (;;) {
+            for (; body < r.last_body && own_end_[body] <= row; ++body)
+                if (grains.is_swept(body)) move(r, body, shared, wall);
+            if (row == r.last_row) break;
+            const std::size_t end = std::min(row + strip_type::length, r.last_row);
+            evaluate_slow(s, row, end, keep);
+            const pebble_pair* pairs = slow_.pairs.data() + row;
+            each_load(s, [&](std::size_t k, const contact_load& load) {
+                load.add_to_i(acting_[grains.body_of(pairs[k].i)]);
+                load.add_to_j(acting_[grains.body_of(pairs[k].j)]);
+            });
+            row = end;
         }
+    }
+    /// Completes the load of a body whose contacts in the range have been evaluated, and moves it. `shared`, `wall`:
+    /// the shared contacts and wall rows that come next.
+    void move(body_range& r, std::size_t g, std::size_t& shared, std::size_t& wall) {
+        body_load& sum = acting_[g];
+        for (; shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
+            shared_load_[shared].add_to_i(sum);
+        load_sum load{
+            {sum.force[0], sum.force[1], sum.force[2]}, {sum.moment[0], sum.moment[1], sum.moment[2]}, sum.moment[3]};
+        sum = {};
+        for (; wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == g; ++wall) {
+            const wall_row& w = slow_wall_[wall];
+            load.force += w.force;
+            if constexpr (specimen_type::turns) load.moment += cross(grains.pebbles[at(w.pebble)].arm, w.force);
+        }
+        if constexpr (breakable) {
+            if (broken_.halo[g] != 0) {
+                load.force += broken_.fast_load[g].force;
+                load.moment += broken_.fast_load[g].moment;
+                load.dissipated += broken_.fast_load[g].dissipated;
+            }
+            if (look_ && is_critical(g)) r.marked.push_back(certificate(g));
+        }
+        grains.advance(g, load, dt_, settings.damping);
+        grains.place(g, [&](std::size_t p) { return needed_[p] != 0; });
+        r.moved = std::max(r.moved, displacement(g));
     }
 
     /// Balls and clusters from t_n - lag to t_n + dt/2 in sub-steps; the mean of what they do to clumps and facets.
@@ -691,7 +762,7 @@ template <triaxial_policies P> class engine {
             totals_.bond_dissipation += e.energy;
             ++(r.mode == break_mode::tension ? totals_.broken_tension : totals_.broken_shear);
             // the pair goes on as a frictional contact
-            const std::size_t k = fast_.find(pair);
+            const std::size_t k = fast_.find(pair, pair_order());
             if (k < fast_.size()) fast_.bonded[k] = 0;
             update_fragments(which, r.cluster);
             estimate_due_ = true; // a lighter piece may need a smaller sub-step
@@ -848,7 +919,7 @@ template <triaxial_policies P> class engine {
     void add_work_of_images() {
         if constexpr (periodic) {
             double power = 0.0;
-            for (std::uint32_t k : across_) power += dot(slow_.rows[k].force, shift_speed_[slow_.image[k]]);
+            for (std::uint32_t a : across_order_) power += dot(across_force_[a], shift_speed_[slow_.image[across_[a]]]);
             totals_.boundary_work += power * dt_;
         }
     }
@@ -856,7 +927,7 @@ template <triaxial_policies P> class engine {
     void observe_stress() {
         if constexpr (periodic) {
             vec3 stress, modulus;
-            slow_.each_sorted(slow_shared_, [&](std::size_t k) {
+            each_slow([&](std::size_t k) {
                 const force_row& row = slow_.rows[k];
                 if (row.depth == 0.0) return;
                 const pebble_pair& p = slow_.pairs[k];
@@ -971,7 +1042,9 @@ template <triaxial_policies P> class engine {
             contact_list<history>& list = which == 0 ? slow : fast;
             std::vector<listed_pair> all;
             for (const auto& part : found) all.insert(all.end(), part[which].begin(), part[which].end());
-            const auto before = [](const listed_pair& a, const listed_pair& b) { return a.pair < b.pair; };
+            const auto before = [order = pair_order()](const listed_pair& a, const listed_pair& b) {
+                return order(a.pair, b.pair);
+            };
             if (!std::is_sorted(all.begin(), all.end(), before)) std::sort(all.begin(), all.end(), before);
             list.pairs.resize(all.size());
             for (std::size_t k = 0; k < all.size(); ++k) list.pairs[k] = all[k].pair;
@@ -982,14 +1055,8 @@ template <triaxial_policies P> class engine {
         }
         for (contact_list<history>* list : {&slow, &fast}) {
             list->resize_rows();
-            for (std::size_t k = 0; k < list->size(); ++k) {
-                if constexpr (contact_list<history>::remembers) {
-                    for (const contact_list<history>* old : {&slow_, &fast_}) {
-                        const std::size_t was = old->find(list->pairs[k]);
-                        if (was < old->size()) list->history[k] = old->history[was];
-                    }
-                }
-            }
+            list->take_histories(slow_, pair_order());
+            list->take_histories(fast_, pair_order());
             if constexpr (breakable)
                 if (list == &fast) {
                     list->bonded.resize(list->size());
@@ -998,6 +1065,7 @@ template <triaxial_policies P> class engine {
         }
         slow_ = std::move(slow);
         fast_ = std::move(fast);
+        slow_.rows.clear(); // a step that is asked for rows makes room for them
 
         list_walls();
         index_rows();
@@ -1071,11 +1139,11 @@ template <triaxial_policies P> class engine {
         };
         const auto [a0, a1] = range(a);
         const auto [b0, b1] = range(b);
-        for (std::size_t i = a0; i < a1; ++i) {
-            const searches::sphere pi{grains.pebbles[i].x, grains.pebbles[i].radius};
-            if (!searches::within(pi, b, settings.skin)) continue;
-            for (std::size_t j = b0; j < b1; ++j)
-                if (searches::within(pi, {grains.pebbles[j].x + shift, grains.pebbles[j].radius}, settings.skin)) {
+        for (std::size_t j = b0; j < b1; ++j) { // the order of the lists
+            const searches::sphere pj{grains.pebbles[j].x + shift, grains.pebbles[j].radius};
+            if (!searches::within(a, pj, settings.skin)) continue;
+            for (std::size_t i = a0; i < a1; ++i)
+                if (searches::within({grains.pebbles[i].x, grains.pebbles[i].radius}, pj, settings.skin)) {
                     const auto p = static_cast<std::int32_t>(i), q = static_cast<std::int32_t>(j);
                     // seen from j, it is i that lies the other way
                     out.push_back(p < q ? listed_pair{{p, q}, image}
@@ -1151,8 +1219,10 @@ template <triaxial_policies P> class engine {
             }
         }
         slow_shared_ = 0;
+        slow_order_.clear();
         if (count > 1) {
-            std::vector<std::uint32_t> order(n);
+            std::vector<std::uint32_t>& order = slow_order_;
+            order.resize(n);
             std::iota(order.begin(), order.end(), 0U);
             const auto shared = [&](std::uint32_t k) {
                 const pebble_pair& p = slow_.pairs[k];
@@ -1163,33 +1233,43 @@ template <triaxial_policies P> class engine {
             slow_.reorder(order);
             slow_of_.renumber(order);
         }
-        if constexpr (periodic) {
-            across_.clear();
-            slow_.each_sorted(slow_shared_, [&](std::size_t k) {
-                if (slow_.image[k] != no_shift) across_.push_back(static_cast<std::uint32_t>(k));
-            });
-        }
+        shared_load_.resize(slow_shared_);
+        acting_.assign(bodies, {});
         own_end_.assign(bodies, 0);
-        std::size_t row = slow_shared_;
+        std::size_t row = slow_shared_, shared = 0, wall = 0;
         for (body_range& r : ranges_) {
-            r.first_row = row;
+            r.first_row = row, r.first_shared = shared, r.first_wall = wall;
             for (std::size_t b = r.first_body; b < r.last_body; ++b) {
                 while (row < n && grains.body_of(slow_.pairs[row].i) == b) ++row;
+                while (shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) == b) ++shared;
+                while (wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == b) ++wall;
                 own_end_[b] = static_cast<std::uint32_t>(row);
             }
             r.last_row = row;
+        }
+        for (std::uint32_t k = 0; k < slow_shared_; ++k)
+            ranges_[range_of[grains.body_of(slow_.pairs[k].j)]].incoming.push_back(k);
+        if constexpr (periodic) {
+            across_.clear(), across_order_.clear();
+            for (std::uint32_t k = 0; k < n; ++k)
+                if (slow_.image[k] != no_shift) across_.push_back(k);
+            across_force_.assign(across_.size(), {});
+            each_slow([&](std::size_t k) {
+                if (slow_.image[k] != no_shift)
+                    across_order_.push_back(static_cast<std::uint32_t>(
+                        std::lower_bound(across_.begin(), across_.end(), k) - across_.begin()));
+            });
         }
     }
     /// Back to one sorted list, as if there had been one thread.
     void join_ranges() {
         if (slow_shared_ == 0) return;
         std::vector<std::uint32_t> order(slow_.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::inplace_merge(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slow_shared_), order.end(),
-                           [&](std::uint32_t a, std::uint32_t b) { return slow_.pairs[a] < slow_.pairs[b]; });
+        for (std::uint32_t k = 0; k < order.size(); ++k) order[slow_order_[k]] = k;
         slow_.reorder(order);
         slow_of_.renumber(order);
         slow_shared_ = 0;
+        slow_order_.clear();
     }
 
     // ---- time step ------------------------------------------------------------------------------------------------
@@ -1319,17 +1399,23 @@ template <triaxial_policies P> class engine {
     std::vector<body_range> ranges_;
     std::vector<std::uint32_t> own_end_;    ///< per body: end of the contacts whose first body it is, in its range
     std::size_t slow_shared_ = 0;           ///< slow contacts between two ranges; they come first in the list
+    std::vector<std::uint32_t> slow_order_; ///< places of the slow contacts in a list of one thread; empty: the same
+    std::vector<contact_load> shared_load_; ///< of the contacts between two ranges
+    std::vector<body_load> acting_;         ///< per body; zero between steps
+    bool look_ = false;                     ///< the criterion looks at this step
     std::vector<birth_certificate> marked_; ///< empty between steps
     std::conditional_t<breakable, breakage_state, nothing> broken_;
     engine_totals totals_;
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
     double wall_travel_ = 0.0;
-    std::vector<std::uint32_t> across_; ///< contacts across a face of a periodic cell, in order
-    vec3 stretch_{1.0, 1.0, 1.0};       ///< edges of a periodic cell over those at the last rebuild: a homogeneous
-                                        ///< deformation brings no pair together but by its strain
-    vec3 reference_edges_;              ///< of a periodic cell, at the last rebuild
-    double widest_ = 0.0;               ///< largest bounding diameter, of a periodic specimen (m)
+    std::vector<std::uint32_t> across_;       ///< contacts across a face of a periodic cell, ascending
+    std::vector<vec3> across_force_;          ///< and the forces on their first body (N)
+    std::vector<std::uint32_t> across_order_; ///< their numbers, in the order of one thread
+    vec3 stretch_{1.0, 1.0, 1.0}; ///< edges of a periodic cell over those at the last rebuild: a homogeneous
+                                  ///< deformation brings no pair together but by its strain
+    vec3 reference_edges_;        ///< of a periodic cell, at the last rebuild
+    double widest_ = 0.0;         ///< largest bounding diameter, of a periodic specimen (m)
     std::conditional_t<periodic, std::array<vec3, 27>, nothing> shift_{}, shift_speed_{}; ///< of the images
     int fast_steps_ = 1;
     bool must_rebuild_ = false;

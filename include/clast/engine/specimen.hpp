@@ -63,7 +63,7 @@ struct specimen {
     double density = 2650.0; ///< kg/m^3
 
     std::vector<grain> grains;
-    std::vector<pebble_motion> pebbles;  ///< per pebble; of clumps only those in a contact list are kept up to date
+    std::vector<clump_pebble> pebbles;   ///< per pebble; of clumps only those in a contact list are kept up to date
     std::vector<std::int32_t> mother;    ///< per pebble: its grain
     std::vector<std::int32_t> owner;     ///< per pebble: its body
     std::vector<body_motion> motion;     ///< per body
@@ -94,12 +94,14 @@ struct specimen {
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
         grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
         for (const shape_pebble& p : s.pebbles) {
-            pebbles.push_back({centre + rotate(q, p.offset),
-                               p.radius,
-                               {},
-                               1.0 / (density * sphere_volume(p.radius)),
-                               {},
-                               1.0 / (density * sphere_inertia_per_density(p.radius))});
+            const vec3 arm = rotate(q, p.offset);
+            pebbles.push_back({{centre + arm,
+                                p.radius,
+                                {},
+                                1.0 / (density * sphere_volume(p.radius)),
+                                {},
+                                1.0 / (density * sphere_inertia_per_density(p.radius))},
+                               arm});
             mother.push_back(id);
             owner.push_back(id);
         }
@@ -123,6 +125,10 @@ struct specimen {
     bool is_swept(std::size_t g) const { return is_clump(g); }
     std::size_t body_of(std::int32_t pebble) const {
         return static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]);
+    }
+    /// Pebbles of one group stand together; contact lists are sorted by the group of the first pebble.
+    std::size_t group_of(std::int32_t pebble) const {
+        return static_cast<std::size_t>(mother[static_cast<std::size_t>(pebble)]);
     }
     const vec3& centre(std::size_t g) const { return motion[g].x; }
     double bounding_radius(std::size_t g) const { return shape_of(grains[g]).circumscribed_radius; }
@@ -171,6 +177,7 @@ struct specimen {
             const std::size_t p = static_cast<std::size_t>(grains[g].first) + k;
             if (!chosen(p)) continue;
             const vec3 arm = turn * s.pebbles[k].offset;
+            pebbles[p].arm = arm;
             pebbles[p].x = m.x + arm;
             pebbles[p].v = m.v + cross(m.w, arm);
             pebbles[p].w = m.w;
@@ -223,6 +230,7 @@ struct sphere_specimen {
     std::size_t body_count() const { return pebbles.size(); }
     static constexpr bool is_swept(std::size_t) { return true; }
     static constexpr std::size_t body_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
+    static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
@@ -273,6 +281,7 @@ concept specimen_type = std::movable<S> && requires(S& s, const S& c, std::size_
     { c.body_count() } -> std::same_as<std::size_t>;
     { c.is_swept(b) } -> std::same_as<bool>;
     { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
+    { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.centre(b) } -> std::convertible_to<vec3>;
     { c.bounding_radius(b) } -> std::same_as<double>;
     { c.pebbles_of(b) } -> std::same_as<index_range>;

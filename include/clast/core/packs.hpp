@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// From records in memory to one array per component and back: transposes of blocks of the width that the target has.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include <clast/core/lanes.hpp>
+
+namespace clast {
+
+using lane2 = double __attribute__((vector_size(16)));
+using lane4 = double __attribute__((vector_size(32)));
+
+/// As many doubles as are transposed at once: what one register of the target takes.
+#if defined(__AVX__)
+inline constexpr std::size_t pack_size = 4;
+#else
+inline constexpr std::size_t pack_size = 2;
+#endif
+
+/// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
+template <std::size_t N> class pack_columns {
+    using lane = std::conditional_t<N == 4, lane4, lane2>;
+
+  public:
+    using records = std::array<const std::byte*, N>;
+
+    [[gnu::always_inline]] pack_columns(const records& record, std::size_t at) {
+        if constexpr (N == 4)
+            even_ = join(load2(record[0] + at), load2(record[2] + at)),
+            odd_ = join(load2(record[1] + at), load2(record[3] + at));
+        else
+            even_ = load2(record[0] + at), odd_ = load2(record[1] + at);
+    }
+    [[gnu::always_inline]] friend pack_columns operator-(const pack_columns& a, const pack_columns& b) {
+        return {a.even_ - b.even_, a.odd_ - b.odd_};
+    }
+    /// The first and the second double of every record, in order.
+    [[gnu::always_inline]] void first(double* to) const {
+        lane v;
+        if constexpr (N == 4)
+            v = __builtin_shufflevector(even_, odd_, 0, 4, 2, 6);
+        else
+            v = __builtin_shufflevector(even_, odd_, 0, 2);
+        std::memcpy(to, &v, sizeof v);
+    }
+    [[gnu::always_inline]] void second(double* to) const {
+        lane v;
+        if constexpr (N == 4)
+            v = __builtin_shufflevector(even_, odd_, 1, 5, 3, 7);
+        else
+            v = __builtin_shufflevector(even_, odd_, 1, 3);
+        std::memcpy(to, &v, sizeof v);
+    }
+
+  private:
+    [[gnu::always_inline]] pack_columns(const lane& even, const lane& odd) : even_(even), odd_(odd) {}
+    [[gnu::always_inline]] static lane2 load2(const std::byte* p) {
+        lane2 v;
+        std::memcpy(&v, p, sizeof v);
+        return v;
+    }
+    [[gnu::always_inline]] static lane4 join(const lane2& a, const lane2& b) {
+        return __builtin_shufflevector(a, b, 0, 1, 2, 3);
+    }
+
+    lane even_, odd_; ///< of records 0, 2 and 1, 3 (or 0 and 1)
+};
+
+/// put(l, {x[l], y[l], z[l], w[l]}) for l = 0 to 3.
+template <class F>
+[[gnu::always_inline]] inline void transpose(const double* x, const double* y, const double* z, const double* w,
+                                             F&& put) {
+    const auto load = [](const double* p) {
+        lane4 v;
+        std::memcpy(&v, p, sizeof v);
+        return v;
+    };
+    const lane4 a = load(x), b = load(y), c = load(z), d = load(w);
+    const lane4 xy_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), xy_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const lane4 zw_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), zw_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    put(0, __builtin_shufflevector(xy_even, zw_even, 0, 1, 4, 5));
+    put(1, __builtin_shufflevector(xy_odd, zw_odd, 0, 1, 4, 5));
+    put(2, __builtin_shufflevector(xy_even, zw_even, 2, 3, 6, 7));
+    put(3, __builtin_shufflevector(xy_odd, zw_odd, 2, 3, 6, 7));
+}
+
+} // namespace clast
