@@ -1,68 +1,84 @@
 // SPDX-License-Identifier: MIT
-// Cost of a whole step of spheres in a periodic cell, rebuilds included, by number of spheres, skin and threads.
+// Cost of a whole step, rebuilds included, of dense packings in a periodic cell (packing.hpp): spheres by number, skin
+// and threads, clumps by number and pebbles; and of the renewal of an engine's lists alone.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <random>
+#include <cstdint>
+#include <optional>
+#include <tuple>
 
 #include <benchmark/benchmark.h>
 
-#include <clast/boundaries/periodic_cell.hpp>
-#include <clast/contacts/linear.hpp>
-#include <clast/criteria/none.hpp>
-#include <clast/engine/engine.hpp>
-#include <clast/replacements/none.hpp>
+#include "packing.hpp"
 
 namespace {
 
-using namespace clast;
+constexpr std::int64_t batch = 20; // steps of one iteration
 
-struct spheres : triaxial_policies_default {
-    using specimen = sphere_specimen;
-    using boundary = boundaries::periodic_cell;
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
-
-/// About n spheres as closely packed planes allow, slightly out of place and slightly overlapping, in pure shear.
-void whole_step(benchmark::State& state) {
-    const auto side = static_cast<int>(std::lround(std::cbrt(static_cast<double>(state.range(0)))));
-    const double skin = static_cast<double>(state.range(1)) / 1000.0 * 0.02, gap = 0.0199;
-    sphere_specimen s;
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> u(-1e-4, 1e-4);
-    for (int k = 0; k < side * side * side; ++k) {
-        const auto at = [&](int i) { return gap * (i - 0.5 * (side - 1)) + u(random); };
-        s.add({at(k % side), at(k / side % side), at(k / side / side)}, 0.01);
+/// Steps of an engine, which goes on where the last call with these arguments left it.
+template <class P>
+void measure(benchmark::State& state, const clast::engine<P>& base, std::int64_t n, const kernels::request& wanted) {
+    const double of_base = static_cast<double>(base.grains.body_count());
+    const int copies = static_cast<int>(std::lround(std::cbrt(static_cast<double>(n) / of_base)));
+    static std::optional<clast::engine<P>> kept;
+    static std::tuple<const void*, std::int64_t, double, int> kept_for;
+    static double bytes = 0.0;
+    if (const auto now = std::tuple(static_cast<const void*>(&base), n, wanted.skin, wanted.threads);
+        !kept || kept_for != now) {
+        kept.reset();
+        const double before = kernels::heap_in_use();
+        kept.emplace(kernels::repeated(base, copies, wanted));
+        kept_for = now;
+        bytes = kernels::heap_in_use() - before;
     }
-    const contacts::linear law{1e7, 5e6, 0.3};
-    boundaries::periodic_cell cell({gap * side, gap * side, gap * side});
-    for (std::size_t a = 0; a < 3; ++a) cell.axes[a].rate = a == 2 ? -1.0 : 0.5;
-    engine<spheres> e({.grain_contact = law,
-                       .platen_contact = law,
-                       .lateral_contact = law,
-                       .breakage = {},
-                       .replacement = {},
-                       .damping = 0.3,
-                       .skin = skin,
-                       .run = execution(static_cast<int>(state.range(2)))},
-                      s, cell);
-    for (int k = 0; k < 200; ++k) e.step();
+    clast::engine<P>& e = *kept;
     const std::int64_t before = e.totals().rebuilds;
-    for (auto _ : state) e.step();
-    const double n = static_cast<double>(side) * side * side;
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
-    state.counters["pairs_per_sphere"] = static_cast<double>(e.slow_contacts().size()) / n;
-    state.counters["steps_per_rebuild"] = static_cast<double>(state.iterations()) /
+    for (auto _ : state) kernels::advance(e, batch);
+    const double bodies = static_cast<double>(e.grains.body_count());
+    state.SetItemsProcessed(batch * state.iterations() * static_cast<std::int64_t>(bodies));
+    state.counters["n"] = bodies;
+    state.counters["phi"] = e.grains.solid_volume() / e.boundary.volume();
+    state.counters["pairs_per_grain"] = static_cast<double>(e.slow_contacts().size()) / bodies;
+    state.counters["steps_per_rebuild"] = static_cast<double>(batch * state.iterations()) /
                                           static_cast<double>(std::max<std::int64_t>(1, e.totals().rebuilds - before));
+    // what the engine holds on the heap after its first steps (mallinfo2), less what was there before
+    state.counters["bytes_per_sphere"] = bytes / static_cast<double>(e.grains.pebble_count());
 }
 
-BENCHMARK(whole_step)
+void sphere_step(benchmark::State& state) {
+    kernels::request wanted;
+    wanted.skin = static_cast<double>(state.range(1)) / 1000.0 * 0.02;
+    wanted.threads = static_cast<int>(state.range(2));
+    measure(state, kernels::base_of_spheres(), state.range(0), wanted);
+}
+void clump_step(benchmark::State& state) {
+    measure(state, kernels::base_of_clumps(static_cast<int>(state.range(1))), state.range(0), {});
+}
+/// An engine builds its lists anew for a boundary that it is given.
+template <class P> void renew(benchmark::State& state, const clast::engine<P>& base, std::int64_t n) {
+    const double of_base = static_cast<double>(base.grains.body_count());
+    clast::engine<P> e =
+        kernels::repeated(base, static_cast<int>(std::lround(std::cbrt(static_cast<double>(n) / of_base))), {});
+    for (auto _ : state) e.set_boundary(e.boundary);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(e.grains.body_count()));
+    state.counters["pairs_per_grain"] =
+        static_cast<double>(e.slow_contacts().size()) / static_cast<double>(e.grains.body_count());
+}
+void sphere_rebuild(benchmark::State& state) { renew(state, kernels::base_of_spheres(), state.range(0)); }
+void clump_rebuild(benchmark::State& state) {
+    renew(state, kernels::base_of_clumps(static_cast<int>(state.range(1))), state.range(0));
+}
+
+BENCHMARK(sphere_step)
     ->ArgNames({"n", "skin_permille_of_d", "threads"})
-    ->ArgsProduct({{1'000, 10'000, 100'000, 1'000'000}, {25}, {1}})
-    ->ArgsProduct({{10'000}, {12, 50, 100}, {1}})
-    ->ArgsProduct({{10'000, 100'000}, {25}, {2}})
+    ->ArgsProduct({{1'000, 8'000, 27'000, 125'000, 1'000'000}, {25}, {1}})
+    ->ArgsProduct({{8'000}, {12, 50, 100}, {1}})
+    ->ArgsProduct({{8'000, 125'000}, {25}, {2}})
     ->UseRealTime();
+BENCHMARK(clump_step)->ArgNames({"n", "pebbles"})->ArgsProduct({{216, 1'728, 13'824}, {4, 14}});
+BENCHMARK(sphere_rebuild)->ArgName("n")->Arg(1'000)->Arg(8'000)->Arg(27'000)->Arg(125'000)->Arg(1'000'000);
+BENCHMARK(clump_rebuild)->ArgNames({"n", "pebbles"})->ArgsProduct({{216, 1'728, 13'824}, {4, 14}});
 
 } // namespace
 

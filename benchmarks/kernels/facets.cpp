@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Cost of the lateral wall: what touches a pebble near it, the force, and its share for each facet, by kind of wall and
+// number of pebbles. Tiles and rings stand where a servo under uneven loads has moved them, so that there are steps.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <clast/boundaries/ring_walls.hpp>
+#include <clast/boundaries/solid_strips.hpp>
+#include <clast/boundaries/tiles.hpp>
+
+namespace {
+
+using namespace clast;
+
+constexpr double radius = 0.15, height = 0.7, pebble = 0.0045, stiffness = 2e6;
+
+template <class Wall> Wall uneven(std::mt19937& random) {
+    Wall wall({.radius = radius,
+               .bottom = -0.5 * height,
+               .top = 0.5 * height,
+               .smallest_radius = pebble,
+               .contact_stiffness_floor = stiffness});
+    std::uniform_real_distribution<double> u(0.0, 2.0);
+    boundaries::drives drives;
+    drives.lateral = {boundaries::drive::mode::servo, 1e6, 0.1, 0.5};
+    std::vector<boundaries::facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
+    std::vector<double> of_target(loads.size());
+    for (double& share : of_target) share = u(random);
+    for (int k = 0; k < 100; ++k) {
+        for (int f = boundaries::first_lateral_facet; f < wall.facet_count(); ++f) {
+            boundaries::facet_load& one = loads[static_cast<std::size_t>(f)];
+            one.force = of_target[static_cast<std::size_t>(f)] * drives.lateral.value * wall.area(f);
+            one.stiffness = stiffness, one.contacts = 1;
+        }
+        wall.control(loads, drives, 1e-4);
+        wall.advance(1e-4);
+    }
+    return wall;
+}
+
+template <class Wall> void touch_and_push(benchmark::State& state) {
+    std::mt19937 random(1);
+    const Wall wall = uneven<Wall>(random);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    std::vector<vec3> pebbles(static_cast<std::size_t>(state.range(0)));
+    for (vec3& x : pebbles) {
+        // at the plane of the facet in front, with a gap or an overlap of up to 4 % of the radius
+        const double angle = std::numbers::pi * u(random), z = 0.49 * height * u(random);
+        const auto around = static_cast<double>(wall.tiles_per_ring()), rings = static_cast<double>(wall.ring_count());
+        const double turns =
+            std::round((angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle) * 0.5 * around / std::numbers::pi);
+        const double ring = std::floor((z / height + 0.5) * rings);
+        const int facet = boundaries::first_lateral_facet + static_cast<int>(ring * around + std::fmod(turns, around));
+        const double off = angle - 2.0 * std::numbers::pi * turns / around;
+        const double rho = (wall.apothem(facet) - pebble * (1.0 + 0.04 * u(random))) / std::cos(off);
+        x = {rho * std::cos(angle), rho * std::sin(angle), z};
+    }
+    std::vector<boundaries::facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
+    std::size_t touching = 0, touched = 0;
+    for (auto _ : state) {
+        touching = touched = 0;
+        for (const vec3& x : pebbles) {
+            const boundaries::touches t = wall.touch(x, pebble);
+            touching += t.size > 0;
+            for (const boundaries::touch& one : t) {
+                loads[static_cast<std::size_t>(one.facet)].add(one, stiffness * one.depth, stiffness);
+                ++touched;
+            }
+        }
+        benchmark::DoNotOptimize(loads.data());
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+    state.counters["touching"] = static_cast<double>(touching) / static_cast<double>(pebbles.size());
+    state.counters["facets_per_touching"] =
+        static_cast<double>(touched) / static_cast<double>(std::max<std::size_t>(1, touching));
+}
+
+BENCHMARK(touch_and_push<boundaries::tiles>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
+BENCHMARK(touch_and_push<boundaries::ring_walls>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
+BENCHMARK(touch_and_push<boundaries::solid_strips>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
+
+} // namespace
+
+BENCHMARK_MAIN();
