@@ -40,7 +40,7 @@ struct scene {
         }
         list.resize_rows();
         for (std::size_t k = 0; k < n; k += 3) {
-            const vec3 f = any(30.0);
+            const vec3 f = reject(any(40.0), unit(pebbles[2 * k + 1].x - pebbles[2 * k].x));
             list.history[k] = {f.x, f.y, f.z};
         }
     }
@@ -93,9 +93,10 @@ TEST_CASE("a strip answers every contact as the law does alone, and open pairs e
         const vec3 middle = unit(b.x - a.x - 0.5 * h * (b.v - a.v));
         const vec3 u = h * reject(slip, middle);
         linear::history history = before.history[k];
-        const auto answer =
-            s.law(contacts::overlap<double>{n.x, n.y, n.z, depth, a.radius, b.radius},
-                  contacts::motion<double>{u.x, u.y, u.z, 0.5 * h * dot(a.w + b.w, n), dot(slip, n)}, history, h);
+        const auto answer = s.law(contacts::overlap<double>{n.x, n.y, n.z, depth, a.radius, b.radius},
+                                  contacts::motion<double>{u.x, u.y, u.z, 0.5 * h * dot(a.w + b.w, n), dot(slip, n),
+                                                           middle.x, middle.y, middle.z, 2.0},
+                                  history, h);
         worst = std::max(worst, norm(row.force - vec3{answer.fx, answer.fy, answer.fz}) / norm(row.force));
         worst = std::max(worst, std::abs(row.dissipated - answer.dissipated) * 1e3);
         worst = std::max(worst, norm(row.normal - n));

@@ -17,10 +17,20 @@ template <class T> struct overlap {
 
 /// Relative motion over the last step, at the contact point.
 template <class T> struct motion {
-    T ux, uy, uz; ///< tangential displacement of i relative to j over the step (m), normal to the mid-step normal
-    T spin;       ///< mean rotation of both bodies about the normal over the step (rad)
-    T approach;   ///< normal speed of approach (m/s)
+    T ux, uy, uz;       ///< tangential displacement of i relative to j over the step (m), normal to the mid-step normal
+    T spin;             ///< mean rotation of both bodies about the normal over the step (rad)
+    T approach;         ///< normal speed of approach (m/s)
+    T mx{}, my{}, mz{}; ///< normal of mid-step, of any length
+    T reflect{};        ///< 2 / (m . m); 0: the normal has not turned
 };
+
+/// Turns a vector of the old contact plane into the new one: v - reflect (m . v) m. A reflection keeps its size, and as
+/// m halves the angle between the two normals, it takes what is normal to the old one to what is normal to the new one,
+/// like the smallest rotation between them.
+template <class T> void turn(const motion<T>& m, T& x, T& y, T& z) {
+    const T a = m.reflect * (m.mx * x + m.my * y + m.mz * z);
+    x -= a * m.mx, y -= a * m.my, z -= a * m.mz;
+}
 
 /// What a law answers.
 template <class T> struct response {

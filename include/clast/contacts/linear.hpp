@@ -23,30 +23,32 @@ struct shear_history {
     double z = 0.0;
 };
 
-/// Tangential spring with a slider: turns the shear force of the last step into the new contact plane and with the
-/// spin, keeping its size, adds -k_s u and cuts it at `limit` (N, >= 0). Answers with the shear force and the work of
-/// the mean shear force on the slip (trial - F) / k_s; `fn` (N, compression positive) is added along the normal.
+/// Tangential spring with a slider: turns the shear force of the last step into the new contact plane and by the spin
+/// (rad, small against 1), keeping its size, adds -k_s u and cuts it at `limit` (N, >= 0). Answers with the shear force
+/// and the work of the mean shear force on the slip (trial - F) / k_s; `fn` (N, compression positive) is added along
+/// the normal.
 template <class T>
 response<T> tangential_spring(const overlap<T>& o, const motion<T>& m, shear_history& h, T fn, T ks, T limit) {
     using std::sqrt;
     // the turn must not do work
-    const T along = h.x * o.nx + h.y * o.ny + h.z * o.nz;
-    const T ax = h.x - along * o.nx, ay = h.y - along * o.ny, az = h.z - along * o.nz;
-    T sx = ax + m.spin * (o.ny * az - o.nz * ay);
-    T sy = ay + m.spin * (o.nz * ax - o.nx * az);
-    T sz = az + m.spin * (o.nx * ay - o.ny * ax);
-    const T before = h.x * h.x + h.y * h.y + h.z * h.z;
-    const T after = sx * sx + sy * sy + sz * sz;
-    const T keep = after > 0.0 ? sqrt(before / after) : T(0.0);
-    sx *= keep, sy *= keep, sz *= keep;
+    T ax = h.x, ay = h.y, az = h.z;
+    turn(m, ax, ay, az);
+    const T along = ax * o.nx + ay * o.ny + az * o.nz; // what rounding and a change of distance in the step leave
+    ax -= along * o.nx, ay -= along * o.ny, az -= along * o.nz;
+    // cosine and sine of a small angle, whose squares add up to 1 but for its eighth power
+    const T q = m.spin * m.spin;
+    const T c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
+    const T k = m.spin * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0)));
+    const T sx = c * ax + k * (o.ny * az - o.nz * ay);
+    const T sy = c * ay + k * (o.nz * ax - o.nx * az);
+    const T sz = c * az + k * (o.nx * ay - o.ny * ax);
     // spring, then slider
     const T px = sx - ks * m.ux, py = sy - ks * m.uy, pz = sz - ks * m.uz;
     const T trial = sqrt(px * px + py * py + pz * pz);
     const T cut = trial > limit ? limit / trial : T(1.0);
     h.x = cut * px, h.y = cut * py, h.z = cut * pz;
     const T half_compliance = ks > 0.0 ? 0.5 / ks : T(0.0);
-    const T slip =
-        half_compliance * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z));
+    const T slip = half_compliance * ((sx + h.x) * (px - h.x) + (sy + h.y) * (py - h.y) + (sz + h.z) * (pz - h.z));
     return {h.x - fn * o.nx, h.y - fn * o.ny, h.z - fn * o.nz, slip};
 }
 

@@ -114,19 +114,21 @@ template <class Law, class Pebble>
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]};
     const vec3 centres{s.vx[k], s.vy[k], s.vz[k]};
     const vec3 spin_i{s.ix[k], s.iy[k], s.iz[k]}, spin_j{s.jx[k], s.jy[k], s.jz[k]};
-    const double distance = std::sqrt(norm2(d)), inverse = 1.0 / distance;
+    const vec3 mid = d - (0.5 * h) * centres;
+    const double distance = std::sqrt(norm2(d)), mid2 = norm2(mid);
+    const double both = 1.0 / (distance * mid2); // one division instead of two
+    const double inverse = mid2 * both, reflect = 2.0 * (distance * both);
     const double overlap = s.radius_i[k] + s.radius_j[k] - distance;
     const double reach_i = s.radius_i[k] - 0.5 * overlap, reach_j = s.radius_j[k] - 0.5 * overlap;
     const vec3 normal = inverse * d;
     const vec3 relative = cross(reach_i * spin_i + reach_j * spin_j, normal) - centres;
-    const vec3 mid = d - (0.5 * h) * centres;
-    const vec3 u = h * (relative - (dot(relative, mid) / norm2(mid)) * mid);
+    const vec3 u = h * (relative - (0.5 * reflect * dot(relative, mid)) * mid);
     const double spin = 0.5 * h * dot(spin_i + spin_j, normal);
     typename Law::history past = history[k];
     const bool touching = overlap > 0.0;
-    const contacts::response<double> answer =
-        law(contacts::overlap<double>{normal.x, normal.y, normal.z, overlap, s.radius_i[k], s.radius_j[k]},
-            contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, normal)}, past, h);
+    const contacts::response<double> answer = law(
+        contacts::overlap<double>{normal.x, normal.y, normal.z, overlap, s.radius_i[k], s.radius_j[k]},
+        contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, normal), mid.x, mid.y, mid.z, reflect}, past, h);
     if constexpr (!std::is_empty_v<typename Law::history>) history[k] = past;
     const vec3 force{touching ? answer.fx : 0.0, touching ? answer.fy : 0.0, touching ? answer.fz : 0.0};
     const vec3 turn = cross(normal, force);
