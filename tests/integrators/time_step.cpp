@@ -205,6 +205,23 @@ TEST_CASE("the step is scaled by the safety factor, and a body without contacts 
     CHECK(sum.time_step(1.0, {1, 1, 1}, 0.5) == Approx(0.25).epsilon(1e-14));
 }
 
+TEST_CASE("a body that does not set the step is not asked for more than that") {
+    random_stream random{8, 5};
+    int cheap = 0, exact = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        stiffness_sum sum(matrix(orientation(random)));
+        for (int c = 0; c < 5; ++c)
+            sum.add(direction(random), uniform(random, 0.0, 3.0), uniform(random, 0.0, 3.0), 0.5 * direction(random));
+        const vec3 inertia{uniform(random, 0.1, 1.0), uniform(random, 0.1, 1.0), uniform(random, 0.1, 1.0)};
+        const double step = sum.time_step(0.7, inertia);
+        const double enough = step * uniform(random, 0.5, 1.5);
+        CHECK(sum.time_step(0.7, inertia, 0.8, enough) == std::min(step, enough));
+        ++(enough < step ? cheap : exact);
+    }
+    CHECK(cheap > 100);
+    CHECK(exact > 100);
+}
+
 TEST_CASE("rotational stiffness: lever arms, twist and bending of bonds, in the axes of the body") {
     stiffness_sum sum;
     sum.add({1, 0, 0}, 5.0, 2.0, {0, 3, 0}); // normal force at the arm 3: about z; shear: about x

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace clast {
@@ -141,7 +142,8 @@ class execution {
         return total;
     }
 
-    /// Largest value(i) over [0, n), at least `floor`.
+    /// Largest value(i) over [0, n), at least `floor`. value(i, so_far) may answer so_far, the largest known to its
+    /// thread, where it knows that its own is not larger.
     template <class F> double max(std::size_t n, double floor, F&& value) const {
         std::vector<double> partial(chunks(n), floor);
         for_each(
@@ -149,7 +151,10 @@ class execution {
             [&](std::size_t c) {
                 double largest = floor;
                 for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
-                    largest = std::max(largest, value(i));
+                    if constexpr (std::is_invocable_v<F, std::size_t, double>)
+                        largest = std::max(largest, value(i, largest));
+                    else
+                        largest = std::max(largest, value(i));
                 partial[c] = largest;
             },
             1);

@@ -37,6 +37,11 @@ inline double largest_principal(const symmetric_invariants& i) {
     return i.mean + 2.0 * root * std::cos(std::acos(cosine) / 3.0);
 }
 
+/// What it cannot exceed (equal where the two smaller values are equal): cheap, for those who look for a largest one.
+inline double largest_principal_bound(const symmetric_invariants& i) {
+    return (i.mean + 2.0 * std::sqrt(i.j2 / 3.0)) * (1.0 + 1e-7);
+}
+
 /// Largest principal value of the symmetric part of m.
 inline double largest_principal(const mat3& m) { return largest_principal(invariants(m)); }
 

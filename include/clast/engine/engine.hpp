@@ -1284,13 +1284,14 @@ template <triaxial_policies P> class engine {
                 w.touch = boundary.touch(grains.pebbles[at(w.pebble)].x, grains.pebbles[at(w.pebble)].radius);
             });
         double limit = typical_limit(smallest_mass_);
-        limit = -settings.run.max(grains.body_count(), -std::min(limit, settings.largest_step), [&](std::size_t g) {
-            if (!grains.is_swept(g)) return -std::numeric_limits<double>::infinity();
+        const auto faster = [&](std::size_t g, double so_far) {
+            if (!grains.is_swept(g)) return so_far;
             stiffness_sum k(grains.body_axes(g));
             add_stiffness(k, slow_of_, g, slow_, slow_wall_, grains.centre(g));
             if constexpr (breakable) add_stiffness(k, fast_of_, g, fast_, fast_wall_, grains.centre(g));
-            return -k.time_step(grains.body_mass(g), grains.body_inertia(g), settings.safety);
-        });
+            return -k.time_step(grains.body_mass(g), grains.body_inertia(g), settings.safety, -so_far);
+        };
+        limit = -settings.run.max(grains.body_count(), -std::min(limit, settings.largest_step), faster);
         // grow slowly: contacts that are about to form are not in the sum yet
         dt_ = first ? limit : std::min(limit, 1.02 * dt_);
         if constexpr (breakable) estimate_substeps();
