@@ -16,8 +16,7 @@ int main(int argc, char** argv) try {
     const auto law = peers::grain_law(s);
     clast::engine<packing> e(peers::settings<packing>(s, law, law), peers::spheres_of(s, s.centre()), cell);
     double seconds = 0.0, cpu = 0.0;
-    peers::timed(
-        s.steps, [&] { e.step(); }, seconds, cpu);
+    peers::timed(e, s.steps, seconds, cpu);
     const clast::mat3 sigma = clast::measure::love_weber(e, e.boundary.volume());
     peers::print("packing", s, s.spheres.size(), seconds, cpu, {sigma(0, 0), sigma(1, 1), sigma(2, 2)},
                  peers::touching_pairs(e), e.totals().rebuilds);
