@@ -18,4 +18,5 @@
 #include <clast/replacements/none.hpp>
 #include <clast/searches/brute_force.hpp>
 #include <clast/searches/cell_grid.hpp>
+#include <clast/searches/hierarchical_grid.hpp>
 #include <clast/version.hpp>

@@ -1,79 +1,30 @@
 // SPDX-License-Identifier: MIT
+// What is particular to the cell grid; that it finds the right pairs is in same_pairs.cpp.
 #include <clast/searches/cell_grid.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <numeric>
 
-#include <clast/core/random.hpp>
-#include <clast/searches/brute_force.hpp>
-
-#include <catch.hpp>
+#include "clouds.hpp"
 
 using namespace clast;
-using searches::sphere;
+using namespace clouds;
+using searches::detail::cell_rows;
 
 namespace {
 
-/// Number of pairs; fails unless both searches name the same ones, sorted.
-std::size_t compare(const std::vector<sphere>& spheres, double margin) {
-    const auto found = searches::cell_grid{}.pairs(spheres, margin);
-    REQUIRE(found == searches::brute_force{}.pairs(spheres, margin));
-    REQUIRE(std::is_sorted(found.begin(), found.end()));
-    return found.size();
+cell_rows sorted(const std::vector<sphere>& spheres, double margin) {
+    std::vector<std::int32_t> all(spheres.size());
+    std::iota(all.begin(), all.end(), 0);
+    return cell_rows(spheres, all, margin);
 }
-
-/// n spheres in a box around `centre`; radii log-uniform between smallest and smallest * ratio.
-std::vector<sphere> cloud(random_stream& random, std::size_t n, const vec3& centre, const vec3& half, double smallest,
-                          double ratio) {
-    std::vector<sphere> s(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const vec3 at{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
-        s[i] = {centre + scale(half, at), smallest * std::pow(ratio, uniform01(random)), static_cast<std::int32_t>(i)};
-    }
-    return s;
+/// Spheres in the cell of a point.
+std::size_t crowd(const cell_rows& g, const vec3& at) {
+    const std::size_t cx = g.cell(0, at.x);
+    const auto run = g.run({cx, cx}, g.cell(1, at.y), g.cell(2, at.z));
+    return run.last - run.first;
 }
 
 } // namespace
-
-TEST_CASE("the cell grid finds the pairs of the double loop: spheres of like and of unlike size") {
-    random_stream random{4, 1};
-    std::size_t pairs = 0;
-    for (const double ratio : {1.0, 2.0, 5.0, 20.0})
-        for (const std::size_t n : {std::size_t{2}, std::size_t{3}, std::size_t{50}, std::size_t{700}})
-            for (const double margin : {0.0, 1e-3, 0.02, 0.5, -0.01})
-                pairs += compare(cloud(random, n, {}, {1, 1, 1}, 0.03, ratio), margin);
-    CHECK(pairs > 10000);
-}
-
-TEST_CASE("the cell grid finds the pairs of a few dense clusters far from each other") {
-    random_stream random{4, 2};
-    std::vector<sphere> all;
-    for (const vec3& centre : {vec3{0, 0, 0}, vec3{1000, 0, 0}, vec3{0, -5000, 3}, vec3{1e6, 1e6, 1e6}}) {
-        const auto part = cloud(random, 100, centre, {0.3, 0.3, 0.3}, 0.03, 4.0);
-        all.insert(all.end(), part.begin(), part.end());
-    }
-    CHECK(compare(all, 0.01) > 100);
-}
-
-TEST_CASE("the cell grid finds the pairs of spheres in a plane, on a line, in one point, and of radius zero") {
-    random_stream random{4, 3};
-    CHECK(compare(cloud(random, 300, {}, {1, 1, 0}, 0.03, 3.0), 0.01) > 0);
-    CHECK(compare(cloud(random, 300, {}, {0, 0, 1}, 0.003, 3.0), 0.001) > 0);
-    CHECK(compare(cloud(random, 60, {3, 4, 5}, {}, 0.03, 3.0), 0.0) == 60 * 59 / 2);
-    CHECK(compare(cloud(random, 200, {}, {1, 1, 1}, 0.0, 1.0), 0.2) > 0);
-    CHECK(compare(cloud(random, 20, {}, {}, 0.0, 1.0), 0.0) == 0);
-    CHECK(compare({}, 1.0) == 0);
-    CHECK(compare({{{1, 2, 3}, 1.0, 0}}, 1.0) == 0);
-}
-
-TEST_CASE("the cell grid finds the pairs far from the origin, where coordinates are coarse") {
-    random_stream random{4, 4};
-    for (const double far : {1e3, 1e6, 1e9, 1e12})
-        for (int i = 0; i < 20; ++i) {
-            compare(cloud(random, 100, {far, -far, far}, {4, 4, 4}, 0.4, 2.0), 0.1);
-            compare(cloud(random, 100, {}, {far, 1, 1}, 0.1 * far, 2.0), 0.01 * far);
-        }
-}
 
 TEST_CASE("no rounding of a cell index parts two spheres that just overlap") {
     // a pair on the two sides of a whole cell: the last coordinate before it and the first one behind it, when cells
@@ -100,6 +51,41 @@ TEST_CASE("no rounding of a cell index parts two spheres that just overlap") {
     CHECK(lost == 0);
 }
 
-TEST_CASE("the number of cells stays bounded when two spheres are very far apart") {
-    CHECK(compare({{{0, 0, 0}, 1e-6, 0}, {{1e9, 1e9, 1e9}, 1e-6, 1}}, 1e-9) == 0);
+TEST_CASE("every sphere is in the cell of its centre, and in no other") {
+    random_stream random{4, 10};
+    const auto spheres = cloud(random, 1000, {1, 2, 3}, {2, 1, 1}, 0.1, 2.0);
+    const cell_rows g = sorted(spheres, 0.01);
+    REQUIRE(g.size() == spheres.size());
+    std::vector<int> seen(spheres.size(), 0);
+    for (std::size_t k = 0; k < g.size(); ++k) {
+        const sphere& s = spheres[static_cast<std::size_t>(g.index[k])];
+        ++seen[static_cast<std::size_t>(g.index[k])];
+        REQUIRE(vec3{g.x[k], g.y[k], g.z[k]} == s.centre);
+        REQUIRE(g.radius[k] == s.radius);
+        const std::size_t cx = g.cell(0, s.centre.x);
+        const auto run = g.run({cx, cx}, g.cell(1, s.centre.y), g.cell(2, s.centre.z));
+        REQUIRE(run.first <= k);
+        REQUIRE(k < run.last);
+    }
+    CHECK(std::count(seen.begin(), seen.end(), 1) == 1000);
+}
+
+TEST_CASE("a few spheres that flew away do not crowd the others into one cell") {
+    random_stream random{4, 11};
+    auto spheres = cloud(random, 5000, {}, {1, 1, 1}, 0.05, 1.0);
+    const cell_rows close = sorted(spheres, 0.005);
+    std::size_t most = 0;
+    for (const sphere& s : spheres) most = std::max(most, crowd(close, s.centre));
+    CHECK(most < 30);
+    for (int i = 0; i < 10; ++i) spheres.push_back({1e6 * direction(random), 0.05, 5000 + i});
+    const cell_rows wide = sorted(spheres, 0.005);
+    for (const sphere& s : spheres) REQUIRE(crowd(wide, s.centre) <= 2 * most);
+}
+
+TEST_CASE("the cells suit the radii: the estimate of a search among like spheres does not grow with their number") {
+    random_stream random{4, 12};
+    const auto few = graded(random, 1000, 1.0), many = graded(random, 20000, 1.0);
+    CHECK(sorted(many, 0.1).cost(1.1) < 1.5 * sorted(few, 0.1).cost(1.1));
+    CHECK(sorted(many, 0.1).cost(1.1) < 20.0);
+    CHECK(sorted(many, 0.1).cost(2.2) > 2.0 * sorted(many, 0.1).cost(1.1));
 }

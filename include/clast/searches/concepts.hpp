@@ -2,6 +2,7 @@
 // What a neighbour search is: it names every pair of bounding spheres whose gap is below a margin, once.
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <span>
@@ -25,11 +26,30 @@ struct sphere_pair {
     constexpr auto operator<=>(const sphere_pair&) const = default;
 };
 
+namespace detail {
+/// Square of the distance of centres below which two spheres are neighbours (m^2); negative, which nothing is below,
+/// where even coincident centres are not.
+inline double near(double radius_a, double radius_b, double margin) {
+    const double reach = radius_a + radius_b + margin;
+    return reach * std::abs(reach);
+}
+/// Squared distances nearer to the limit than this part of it are left to `within_exactly`: far above what rounding
+/// makes of them, far below what matters.
+inline constexpr double doubt = 1e-12;
+
+/// Decides where the last bits do. Not inline, because compilers fuse multiplications and additions here so and there
+/// otherwise: all searches shall agree.
+[[gnu::noinline]] inline bool within_exactly(const sphere& a, const sphere& b, double margin) {
+    return norm2(b.centre - a.centre) < near(a.radius, b.radius, margin);
+}
+} // namespace detail
+
 /// True if the gap of two spheres is below the margin: the one predicate that all searches share. A negative margin
-/// asks for an overlap.
+/// asks for an overlap. Lengths may be anything whose square is a normal number.
 inline bool within(const sphere& a, const sphere& b, double margin) {
-    const double reach = a.radius + b.radius + margin;
-    return reach > 0.0 && norm2(b.centre - a.centre) < reach * reach;
+    const double far = norm2(b.centre - a.centre), near = detail::near(a.radius, b.radius, margin);
+    if (far >= (1.0 + detail::doubt) * near) return false;
+    return far < (1.0 - detail::doubt) * near || detail::within_exactly(a, b, margin);
 }
 
 /// S finds all pairs with gap < margin, each once, sorted; the same pairs for every search.
