@@ -1,52 +1,102 @@
 // SPDX-License-Identifier: MIT
-// Cost of neighbour searches: a random dense-looking cloud of n spheres, by n and by the ratio of largest to smallest
-// radius.
+// Cost of neighbour searches: by the number of spheres in a dense packing of like ones, and by the ratio of largest to
+// smallest radius.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <random>
+#include <numbers>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include <clast/core/random.hpp>
 #include <clast/searches/brute_force.hpp>
 #include <clast/searches/cell_grid.hpp>
+#include <clast/searches/hierarchical_grid.hpp>
+
+#include "packing.hpp"
 
 namespace {
 
 using namespace clast;
+using searches::sphere;
+using spheres = std::vector<sphere>;
 
-/// Jittered grid at one sphere per (2 r)^3 of the mean radius; radii spread evenly in their logarithm over `ratio`.
-std::vector<searches::sphere> cloud(std::size_t n, double ratio) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> u(-0.5, 0.5);
-    const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(n))));
-    std::vector<searches::sphere> out(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        const auto at = [&](std::size_t i) { return 0.02 * (static_cast<double>(i) + u(random)); };
-        out[k] = {{at(k % side), at(k / side % side), at(k / side / side)},
-                  0.01 * std::pow(ratio, u(random) - 0.5),
-                  static_cast<std::int32_t>(k)};
-    }
-    return out;
+double volume(const spheres& all) {
+    double sum = 0.0;
+    for (const sphere& s : all) sum += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
+    return sum;
 }
 
-template <class Search> void pairs(benchmark::State& state) {
-    const auto spheres = cloud(static_cast<std::size_t>(state.range(0)), static_cast<double>(state.range(1)));
+/// n spheres (a multiple of 1000) of a dense packing, in a random order as after long flow.
+spheres packing(std::size_t n) {
+    const auto& base = kernels::base_of_spheres();
+    const auto blocks = n / base.grains.body_count();
+    const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(blocks)) - 1e-9));
+    spheres all;
+    for (std::size_t k = 0; k < blocks; ++k) {
+        const vec3 corner{static_cast<double>(k % side), static_cast<double>(k / side % side),
+                          static_cast<double>(k / side / side)};
+        for (std::size_t b = 0; b < base.grains.body_count(); ++b)
+            all.push_back(
+                {base.grains.centre(b) + scale(base.boundary.edges(), corner), base.grains.bounding_radius(b)});
+    }
+    random_stream random{1, 2};
+    for (std::size_t i = all.size() - 1; i > 0; --i) std::swap(all[i], all[random.bits() % (i + 1)]);
+    return all;
+}
+
+/// n spheres of diameters from 1 / ratio to 1, the same volume of each size, at random in a cube that they fill to 60 %
+/// (they overlap).
+spheres graded(std::size_t n, double ratio) {
+    random_stream random{1, 3};
+    spheres all(n);
+    for (sphere& s : all) s.radius = 0.5 / ratio / std::cbrt(1.0 - uniform01(random) * (1.0 - std::pow(ratio, -3.0)));
+    const double edge = std::cbrt(volume(all) / 0.6);
+    for (sphere& s : all) s.centre = edge * vec3{uniform01(random), uniform01(random), uniform01(random)};
+    return all;
+}
+
+template <class Search> void measure(benchmark::State& state, const spheres& all, double margin) {
     std::size_t found = 0;
     for (auto _ : state) {
-        const auto list = Search{}.pairs(spheres, 5e-4);
+        const auto list = Search{}.pairs(all, margin);
         found = list.size();
         benchmark::DoNotOptimize(list.data());
     }
-    state.SetItemsProcessed(state.iterations() * state.range(0));
-    state.counters["pairs_per_sphere"] = static_cast<double>(found) / static_cast<double>(state.range(0));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+    state.counters["pairs"] = static_cast<double>(found);
+    state.counters["pairs_per_sphere"] = static_cast<double>(found) / static_cast<double>(all.size());
 }
 
-BENCHMARK(pairs<searches::brute_force>)->ArgNames({"n", "ratio"})->Args({1'000, 1})->Args({10'000, 1});
-BENCHMARK(pairs<searches::cell_grid>)
-    ->ArgNames({"n", "ratio"})
-    ->ArgsProduct({{1'000, 10'000, 100'000, 1'000'000}, {1}})
-    ->ArgsProduct({{100'000}, {2, 10, 100}});
+/// Margin in thousandths of the mean diameter.
+template <class Search> void by_number(benchmark::State& state) {
+    measure<Search>(state, packing(static_cast<std::size_t>(state.range(0))),
+                    0.02 * 0.001 * static_cast<double>(state.range(1)));
+}
+/// Margin: 3 % of the smallest diameter.
+template <class Search> void by_ratio(benchmark::State& state) {
+    const auto ratio = static_cast<double>(state.range(1));
+    measure<Search>(state, graded(static_cast<std::size_t>(state.range(0)), ratio), 0.03 / ratio);
+}
+
+void numbers(benchmark::internal::Benchmark* b, std::int64_t most) {
+    b->ArgNames({"n", "margin"})->Unit(benchmark::kMicrosecond);
+    for (std::int64_t n = 1000; n <= most; n *= 10)
+        for (const std::int64_t margin : {30, 100}) b->Args({n, margin});
+}
+void ratios(benchmark::internal::Benchmark* b, std::int64_t n) {
+    b->ArgNames({"n", "ratio"})->Unit(benchmark::kMicrosecond);
+    for (const std::int64_t ratio : {1, 3, 10, 100}) b->Args({n, ratio});
+}
+
+// the double loop only where it ends within a second
+BENCHMARK(by_number<searches::brute_force>)->Apply([](auto* b) { numbers(b, 10'000); });
+BENCHMARK(by_number<searches::cell_grid>)->Apply([](auto* b) { numbers(b, 1'000'000); });
+BENCHMARK(by_number<searches::hierarchical_grid>)->Apply([](auto* b) { numbers(b, 1'000'000); });
+BENCHMARK(by_ratio<searches::brute_force>)->Apply([](auto* b) { ratios(b, 10'000); });
+BENCHMARK(by_ratio<searches::cell_grid>)->Apply([](auto* b) { ratios(b, 100'000); });
+BENCHMARK(by_ratio<searches::hierarchical_grid>)->Apply([](auto* b) { ratios(b, 100'000); });
 
 } // namespace
 
