@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cost of a whole step, rebuilds included, of dense packings in a periodic cell (packing.hpp): spheres by number, skin
 // and threads, clumps by number and pebbles; and of the renewal of an engine's lists alone.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,8 +39,8 @@ void measure(benchmark::State& state, const clast::engine<P>& base, std::int64_t
     state.counters["n"] = bodies;
     state.counters["phi"] = e.grains.solid_volume() / e.boundary.volume();
     state.counters["pairs_per_grain"] = static_cast<double>(e.slow_contacts().size()) / bodies;
-    state.counters["steps_per_rebuild"] = static_cast<double>(batch * state.iterations()) /
-                                          static_cast<double>(std::max<std::int64_t>(1, e.totals().rebuilds - before));
+    state.counters["rebuilds_per_1000_steps"] =
+        1000.0 * static_cast<double>(e.totals().rebuilds - before) / static_cast<double>(batch * state.iterations());
     // what the engine holds on the heap after its first steps (mallinfo2), less what was there before
     state.counters["bytes_per_sphere"] = bytes / static_cast<double>(e.grains.pebble_count());
 }
