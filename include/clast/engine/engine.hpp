@@ -571,6 +571,7 @@ template <triaxial_policies P> class engine {
         std::size_t first_shared = 0;        ///< of the shared contacts whose first body is in the range
         std::size_t first_wall = 0;          ///< of the wall rows of its bodies
         std::vector<std::uint32_t> incoming; ///< shared contacts whose second body is in it
+        std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
         double moved = 0.0;                  ///< largest displacement of a surface in it (m)
         std::vector<birth_certificate> marked;
     };
@@ -582,7 +583,10 @@ template <triaxial_policies P> class engine {
         r.moved = 0.0;
         for (;;) {
             for (; body < r.last_body && own_end_[body] <= row; ++body)
-                if (grains.is_swept(body)) move(r, body, shared, wall);
+                if (grains.is_swept(body)) {
+                    r.ready.push_back({body, complete_load(r, body, shared, wall)});
+                    if (r.ready.size() == clump_strip::length) move_ready(r);
+                }
             if (row == r.last_row) break;
             const std::size_t end = std::min(row + strip_type::length, r.last_row);
             evaluate_slow(s, row, end, keep);
@@ -593,10 +597,11 @@ template <triaxial_policies P> class engine {
             });
             row = end;
         }
+        move_ready(r);
     }
-    /// Completes the load of a body whose contacts in the range have been evaluated, and moves it. `shared`, `wall`:
-    /// the shared contacts and wall rows that come next.
-    void move(body_range& r, std::size_t g, std::size_t& shared, std::size_t& wall) {
+    /// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and
+    /// wall rows that come next.
+    load_sum complete_load(body_range& r, std::size_t g, std::size_t& shared, std::size_t& wall) {
         body_load& sum = acting_[g];
         for (; shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
             shared_load_[shared].add_to_i(sum);
@@ -616,9 +621,19 @@ template <triaxial_policies P> class engine {
             }
             if (look_ && is_critical(g)) r.marked.push_back(certificate(g));
         }
-        grains.advance(g, load, dt_, settings.damping);
-        grains.place(g, [&](std::size_t p) { return needed_[p] != 0; });
-        r.moved = std::max(r.moved, displacement(g));
+        return load;
+    }
+    void move_ready(body_range& r) {
+        // fast contacts see a clump along its velocity, half a step ahead
+        const auto ahead = [&]([[maybe_unused]] std::size_t g) {
+            if constexpr (breakable)
+                if (broken_.halo[g] != 0)
+                    return dt_ * (norm(grains.motion[g].v) + grains.bounding_radius(g) * norm(grains.motion[g].w));
+            return 0.0;
+        };
+        r.moved = std::max(r.moved, grains.advance(std::span<const moving_body>(r.ready), dt_, settings.damping,
+                                                   placed_, reference_, stretch_, ahead));
+        r.ready.clear();
     }
 
     /// Balls and clusters from t_n - lag to t_n + dt/2 in sub-steps; the mean of what they do to clumps and facets.
@@ -957,16 +972,6 @@ template <triaxial_policies P> class engine {
 
     // ---- lists ----------------------------------------------------------------------------------------------------
 
-    /// How far the surface of a clump may have moved since the last rebuild (m).
-    double displacement(std::size_t g) const {
-        vec3 from = reference_[g].centre;
-        if constexpr (periodic) from = scale(stretch_, from);
-        double moved = grains.displacement(g, reference_[g], from);
-        if constexpr (breakable)
-            if (broken_.halo[g] != 0)
-                moved += dt_ * (norm(grains.motion[g].v) + grains.bounding_radius(g) * norm(grains.motion[g].w));
-        return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
-    }
     /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since
     /// the last rebuild against the skin, the walls' own travel included.
     void check_displacements(double largest) {
@@ -1233,6 +1238,16 @@ template <triaxial_policies P> class engine {
             slow_.reorder(order);
             slow_of_.renumber(order);
         }
+        if constexpr (specimen_type::turns) {
+            placed_.start.assign(1, 0);
+            placed_.items.clear();
+            for (std::size_t b = 0; b < bodies; ++b) {
+                const index_range own = grains.pebbles_of(b);
+                for (std::size_t p = own.begin; p < own.end; ++p)
+                    if (needed_[p] != 0) placed_.items.push_back(static_cast<std::int32_t>(p));
+                placed_.start.push_back(static_cast<std::uint32_t>(placed_.items.size()));
+            }
+        }
         shared_load_.resize(slow_shared_);
         acting_.assign(bodies, {});
         own_end_.assign(bodies, 0);
@@ -1395,6 +1410,7 @@ template <triaxial_policies P> class engine {
     std::vector<typename specimen_type::reference> reference_; ///< per swept body: where it was at the last rebuild
     std::vector<vec3> ball_reference_;                         ///< per pebble of a breakable specimen
     std::vector<std::uint8_t> needed_;                         ///< per pebble: in a list, so placed in every step
+    body_items placed_;                                        ///< the same, by bodies
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
     std::vector<body_range> ranges_;

@@ -116,8 +116,7 @@ template <class Law, class Pebble>
     const vec3 spin_i{s.ix[k], s.iy[k], s.iz[k]}, spin_j{s.jx[k], s.jy[k], s.jz[k]};
     const vec3 mid = d - (0.5 * h) * centres;
     const double distance = std::sqrt(norm2(d)), mid2 = norm2(mid);
-    const double both = 1.0 / (distance * mid2); // one division instead of two
-    const double inverse = mid2 * both, reflect = 2.0 * (distance * both);
+    const double inverse = 1.0 / distance, reflect = 2.0 / mid2;
     const double overlap = s.radius_i[k] + s.radius_j[k] - distance;
     const double reach_i = s.radius_i[k] - 0.5 * overlap, reach_j = s.radius_j[k] - 0.5 * overlap;
     const vec3 normal = inverse * d;

@@ -7,10 +7,14 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/engine/clump_strip.hpp>
 #include <clast/engine/contact_list.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/integrators/local_damping.hpp>
@@ -51,6 +55,22 @@ struct load_sum {
     double dissipated = 0.0;
 };
 
+/// A body that is about to move, and what acts on it.
+struct moving_body {
+    std::size_t body = 0;
+    load_sum load;
+};
+
+/// Items of every body, side by side: those of body b are items[start[b]] to items[start[b + 1] - 1].
+struct body_items {
+    std::vector<std::uint32_t> start;
+    std::vector<std::int32_t> items;
+
+    std::span<const std::int32_t> of(std::size_t body) const {
+        return {items.data() + start[body], items.data() + start[body + 1]};
+    }
+};
+
 /// Indices from begin to end - 1.
 struct index_range {
     std::size_t begin, end;
@@ -70,16 +90,23 @@ struct specimen {
     std::vector<clump_rotation> turning; ///< per grain
     std::vector<body_losses> losses;     ///< per body
 
+    /// What all clumps of one shape have in common; made with the first grain of it, so shapes and density must not
+    /// change after that.
+    struct constants {
+        double mass, inverse_mass; ///< kg
+        vec3 inverse_inertia;      ///< 1/(kg m^2), body axes
+    };
+    std::vector<constants> of_shape;
+
     std::size_t grain_count() const { return grains.size(); }
     std::size_t pebble_count() const { return pebbles.size(); }
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
     bool is_clump(std::size_t g) const { return grains[g].cluster < 0; }
-    double mass_of(const grain& g) const { return density * shape_of(g).volume; }
+    double mass_of(const grain& g) const { return of_shape[static_cast<std::size_t>(g.shape)].mass; }
     double ball_mass(std::size_t p) const { return density * sphere_volume(pebbles[p].radius); }
     double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(pebbles[p].radius); }
-    vec3 inverse_inertia(const grain& g) const {
-        const vec3 i = density * shape_of(g).inertia_per_density;
-        return {1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
+    const vec3& inverse_inertia(const grain& g) const {
+        return of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
     }
     /// Total pebble volume (m^3): invariant under replacement.
     double solid_volume() const {
@@ -92,6 +119,11 @@ struct specimen {
     std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
+        for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
+            const double m = density * shapes[k].volume;
+            const vec3 i = density * shapes[k].inertia_per_density;
+            of_shape.push_back({m, 1.0 / m, {1.0 / i.x, 1.0 / i.y, 1.0 / i.z}});
+        }
         grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
         for (const shape_pebble& p : s.pebbles) {
             const vec3 arm = rotate(q, p.offset);
@@ -144,44 +176,44 @@ struct specimen {
                rotational_energy(turning[g].q, turning[g].l, inverse_inertia(grains[g]));
     }
     reference refer(std::size_t g) const { return {motion[g].x, turning[g].q}; }
-    /// Largest way of a point of the body since then (m); the centre's own way is measured from `from`.
-    double displacement(std::size_t g, const reference& since, const vec3& from) const {
-        const quaternion d = conjugate(since.q) * turning[g].q;
-        const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
-        return norm(motion[g].x - from) + bounding_radius(g) * turned_by;
-    }
-    /// Moves a body by one step h (s) under its load, with local damping of force and moment (in the body frame).
-    void advance(std::size_t g, const load_sum& load, double h, double damping) {
-        const vec3 inverse = inverse_inertia(grains[g]);
-        body_motion& m = motion[g];
-        clump_rotation& turn = turning[g];
-        const vec3 df = damping_force(load.force, m.v, damping);
-        const vec3 dm = damping_moment(turn.q, load.moment, m.w, damping);
-        const vec3 v = m.v, w = m.w;
-        m.v += (h / mass_of(grains[g])) * (load.force + df);
-        turn.l += h * (load.moment + dm);
-        const vec3 spin = spin_of(turn.q, turn.l, inverse);
-        losses[g].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + spin));
-        losses[g].friction += load.dissipated;
-        const turned next = advance_rotation(turn.q, turn.l, inverse, h);
-        m.x += h * m.v;
-        m.w = next.spin;
-        turn.q = next.q;
+    /// Moves bodies by one step h (s) under their loads, with local damping of force and moment (in the body frame),
+    /// and places those of their pebbles that are `wanted`. since: where displacements count from, per body; stretch:
+    /// of the space between then and now. further(body): way (m) to be added to the displacement of a body. Returns the
+    /// largest displacement of a point of one of the bodies (m).
+    template <class Further>
+    double advance(std::span<const moving_body> bodies, double h, double damping, const body_items& wanted,
+                   std::span<const reference> since, const vec3& stretch, Further&& further) {
+        double most = 0.0;
+        clump_strip s;
+        for (std::size_t from = 0; from < bodies.size(); from += clump_strip::length) {
+            s.size = std::min(clump_strip::length, bodies.size() - from);
+            for (std::size_t k = 0; k < s.size; ++k) {
+                const moving_body& one = bodies[from + k];
+                fill(s, k, one.body, one.load, since[one.body], stretch);
+            }
+            clast::advance(s, h, damping);
+            for (std::size_t k = 0; k < s.size; ++k) {
+                const std::size_t g = bodies[from + k].body;
+                losses[g].damping += s.damped[k];
+                losses[g].friction += bodies[from + k].load.dissipated;
+                motion[g] = {{s.x[k], s.y[k], s.z[k]}, {s.vx[k], s.vy[k], s.vz[k]}, {s.wx[k], s.wy[k], s.wz[k]}};
+                turning[g] = {{s.nw[k], s.nx[k], s.ny[k], s.nz[k]}, {s.lx[k], s.ly[k], s.lz[k]}};
+                const mat3 turn{
+                    {{s.r00[k], s.r01[k], s.r02[k]}, {s.r10[k], s.r11[k], s.r12[k]}, {s.r20[k], s.r21[k], s.r22[k]}}};
+                const placement to(motion[g], turn, shape_of(grains[g]), grains[g].first);
+                for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
+                const double moved = s.moved[k] + further(g);
+                most = std::max(most, std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity());
+            }
+        }
+        return most;
     }
     /// Places those pebbles of a clump for which chosen(pebble).
     template <class F> void place(std::size_t g, F&& chosen) {
-        const shape& s = shape_of(grains[g]);
-        const body_motion& m = motion[g];
-        const mat3 turn = matrix(turning[g].q);
-        for (std::size_t k = 0; k < s.pebbles.size(); ++k) {
-            const std::size_t p = static_cast<std::size_t>(grains[g].first) + k;
-            if (!chosen(p)) continue;
-            const vec3 arm = turn * s.pebbles[k].offset;
-            pebbles[p].arm = arm;
-            pebbles[p].x = m.x + arm;
-            pebbles[p].v = m.v + cross(m.w, arm);
-            pebbles[p].w = m.w;
-        }
+        const placement to(motion[g], matrix(turning[g].q), shape_of(grains[g]), grains[g].first);
+        const index_range all = pebbles_of(g);
+        for (std::size_t p = all.begin; p < all.end; ++p)
+            if (chosen(p)) to.put(static_cast<std::int32_t>(p), pebbles[p]);
     }
     /// Moves a body elsewhere at another velocity (an image in a periodic cell); its pebbles are not placed.
     void shift(std::size_t g, const vec3& by, const vec3& faster) { motion[g].x += by, motion[g].v += faster; }
@@ -192,7 +224,61 @@ struct specimen {
     }
 
     template <class A> void archive(A& a) {
-        a(shapes, density, grains, pebbles, mother, owner, motion, turning, losses);
+        a(shapes, density, of_shape, grains, pebbles, mother, owner, motion, turning, losses);
+    }
+
+  private:
+    /// Where the pebbles of a clump are, and how they move: x = X + R o, v = V + w x (R o), by columns of R and of w x
+    /// R.
+    class placement {
+      public:
+        placement(const body_motion& m, const mat3& turn, const shape& s, std::int32_t first)
+            : pebbles_(s.pebbles.data()), first_(first), x_(lane(m.x)), v_(lane(m.v)), w_(lane(m.w)) {
+            for (int a = 0; a < 3; ++a) {
+                const vec3 column{turn(0, a), turn(1, a), turn(2, a)};
+                turn_[a] = lane(column), swing_[a] = lane(cross(m.w, column));
+            }
+        }
+        void put(std::int32_t p, clump_pebble& to) const {
+            const vec3& o = pebbles_[p - first_].offset;
+            const lane4 arm = o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2];
+            set(to, sizeof(pebble_motion), arm, 0.0);
+            set(to, offsetof(pebble_motion, x), x_ + arm, to.radius);
+            set(to, offsetof(pebble_motion, v), v_ + (o.x * swing_[0] + o.y * swing_[1] + o.z * swing_[2]),
+                to.inverse_mass);
+            set(to, offsetof(pebble_motion, w), w_, to.inverse_inertia);
+        }
+
+      private:
+        static lane4 lane(const vec3& a) { return lane4{a.x, a.y, a.z, 0.0}; }
+        /// A block of four numbers at once.
+        static void set(clump_pebble& to, std::size_t at, lane4 value, double fourth) {
+            value[3] = fourth;
+            std::memcpy(reinterpret_cast<std::byte*>(&to) + at, &value, sizeof value);
+        }
+
+        const shape_pebble* pebbles_;
+        std::int32_t first_;
+        lane4 x_, v_, w_, turn_[3], swing_[3];
+    };
+    void fill(clump_strip& s, std::size_t k, std::size_t g, const load_sum& load, const reference& since,
+              const vec3& stretch) const {
+        const body_motion& m = motion[g];
+        const clump_rotation& t = turning[g];
+        const constants& c = of_shape[static_cast<std::size_t>(grains[g].shape)];
+        s.fx[k] = load.force.x, s.fy[k] = load.force.y, s.fz[k] = load.force.z;
+        s.mx[k] = load.moment.x, s.my[k] = load.moment.y, s.mz[k] = load.moment.z;
+        s.x[k] = m.x.x, s.y[k] = m.x.y, s.z[k] = m.x.z;
+        s.vx[k] = m.v.x, s.vy[k] = m.v.y, s.vz[k] = m.v.z;
+        s.wx[k] = m.w.x, s.wy[k] = m.w.y, s.wz[k] = m.w.z;
+        s.lx[k] = t.l.x, s.ly[k] = t.l.y, s.lz[k] = t.l.z;
+        s.qw[k] = t.q.w, s.qx[k] = t.q.x, s.qy[k] = t.q.y, s.qz[k] = t.q.z;
+        s.inverse_mass[k] = c.inverse_mass;
+        s.ix[k] = c.inverse_inertia.x, s.iy[k] = c.inverse_inertia.y, s.iz[k] = c.inverse_inertia.z;
+        s.cx[k] = stretch.x * since.centre.x, s.cy[k] = stretch.y * since.centre.y,
+        s.cz[k] = stretch.z * since.centre.z;
+        s.tw[k] = since.q.w, s.tx[k] = since.q.x, s.ty[k] = since.q.y, s.tz[k] = since.q.z;
+        s.reach[k] = bounding_radius(g);
     }
 };
 
@@ -245,7 +331,31 @@ struct sphere_specimen {
         return 0.5 * (norm2(p.v) / p.inverse_mass + norm2(p.w) / p.inverse_inertia);
     }
     reference refer(std::size_t b) const { return {pebbles[b].x}; }
-    double displacement(std::size_t b, const reference&, const vec3& from) const { return norm(pebbles[b].x - from); }
+    /// As for clumps; there is no pebble to be placed.
+    template <class Further>
+    double advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
+                   std::span<const reference> since, const vec3& stretch, Further&&) {
+        double most2 = 0.0;
+        bool finite = true;
+        for (const moving_body& one : bodies) {
+            advance(one.body, one.load, h, damping);
+            const double d2 = norm2(pebbles[one.body].x - scale(stretch, since[one.body].centre));
+            finite = finite && d2 < std::numeric_limits<double>::infinity();
+            most2 = std::max(most2, d2);
+        }
+        return finite ? std::sqrt(most2) : std::numeric_limits<double>::infinity();
+    }
+    template <class F> void place(std::size_t, F&&) {}
+    void shift(std::size_t b, const vec3& by, const vec3& faster) { pebbles[b].x += by, pebbles[b].v += faster; }
+    double smallest_mass() const {
+        double most = 0.0;
+        for (const pebble_motion& p : pebbles) most = std::max(most, p.inverse_mass);
+        return 1.0 / most;
+    }
+
+    template <class A> void archive(A& a) { a(density, pebbles, losses); }
+
+  private:
     void advance(std::size_t b, const load_sum& load, double h, double damping) {
         pebble_motion& p = pebbles[b];
         losses[b].friction += load.dissipated;
@@ -262,21 +372,12 @@ struct sphere_specimen {
         }
         p.x += h * p.v;
     }
-    template <class F> void place(std::size_t, F&&) {}
-    void shift(std::size_t b, const vec3& by, const vec3& faster) { pebbles[b].x += by, pebbles[b].v += faster; }
-    double smallest_mass() const {
-        double most = 0.0;
-        for (const pebble_motion& p : pebbles) most = std::max(most, p.inverse_mass);
-        return 1.0 / most;
-    }
-
-    template <class A> void archive(A& a) { a(density, pebbles, losses); }
 };
 
 /// What an engine sweeps: `specimen` (clumps, which may break) or `sphere_specimen`.
 template <class S>
-concept specimen_type = std::movable<S> && requires(S& s, const S& c, std::size_t b, const load_sum& load, vec3 x,
-                                                    double h, const typename S::reference& since) {
+concept specimen_type = std::movable<S> &&
+    requires(S& s, const S& c, std::size_t b, vec3 x, double h, const body_items& wanted) {
     { S::turns } -> std::convertible_to<bool>;
     { c.body_count() } -> std::same_as<std::size_t>;
     { c.is_swept(b) } -> std::same_as<bool>;
@@ -290,8 +391,10 @@ concept specimen_type = std::movable<S> && requires(S& s, const S& c, std::size_
     { c.body_axes(b) } -> std::same_as<mat3>;
     { c.kinetic_energy(b) } -> std::same_as<double>;
     { c.refer(b) } -> std::same_as<typename S::reference>;
-    { c.displacement(b, since, x) } -> std::same_as<double>;
-    s.advance(b, load, h, h);
+    {
+        s.advance(std::span<const moving_body>{}, h, h, wanted, std::span<const typename S::reference>{}, x,
+                  [](std::size_t) { return 0.0; })
+        } -> std::same_as<double>;
     s.place(b, [](std::size_t) { return true; });
     s.shift(b, x, x);
 };

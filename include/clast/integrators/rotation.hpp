@@ -33,6 +33,9 @@ constexpr double rotational_energy(const quaternion& q, const vec3& angular_mome
     return 0.5 * dot(l, scale(inverse_inertia_body, l));
 }
 
+/// Square of the angle of a step (rad^2) below which the series about its start is exact to rounding.
+inline constexpr double small_step2 = 1e-8;
+
 namespace detail {
 
 /// Mean angular velocity (rotation vector over k, rad/s), in the body axes at the start, of the torque-free motion over
@@ -88,7 +91,7 @@ inline turned advance_rotation(const quaternion& q, const vec3& angular_momentum
     const vec3 l = rotate_back(q, angular_momentum);
     const double largest = std::max({inverse.x, inverse.y, inverse.z});
     const double angle2 = norm2(l) * (largest * largest * dt * dt); // bound of (|w| dt)^2
-    if (angle2 < 1e-8) {
+    if (angle2 < small_step2) {
         const vec3 spin = detail::free_spin(l, inverse, dt);
         return {detail::renormalised(q * detail::small_rotation(dt * spin)), rotate(q, spin)};
     }

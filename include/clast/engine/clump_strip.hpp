@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Clumps by strips of 16: their motion over one step, side by side, as compilers vectorise it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <clast/core/lanes.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/integrators/local_damping.hpp>
+#include <clast/integrators/rotation.hpp>
+
+namespace clast {
+
+/// State, load and result of up to 16 clumps. Lanes are computed by eights, whatever stands in those that are not used.
+struct clump_strip {
+    static constexpr std::size_t length = 16;
+    using row = double[length];
+
+    std::size_t size = 0;
+    alignas(64) row fx{}, fy{}, fz{};             ///< force (N)
+    row mx{}, my{}, mz{};                         ///< moment about the centre (N m)
+    row x{}, y{}, z{}, vx{}, vy{}, vz{};          ///< centre (m) and its velocity (m/s)
+    row wx{}, wy{}, wz{};                         ///< spin of the last step, then of this one (rad/s)
+    row lx{}, ly{}, lz{};                         ///< angular momentum (kg m^2/s)
+    row qw{}, qx{}, qy{}, qz{};                   ///< orientation before
+    row nw{}, nx{}, ny{}, nz{};                   ///< and after the step
+    row inverse_mass{}, ix{}, iy{}, iz{};         ///< 1/kg, and 1/(kg m^2) in the body's axes
+    row cx{}, cy{}, cz{}, tw{}, tx{}, ty{}, tz{}; ///< centre (m) and orientation from which displacements count
+    row reach{};                                  ///< radius of the circumscribed sphere (m)
+    row damped{};                                 ///< energy lost to damping (J)
+    row angle2{};                                 ///< upper bound of the squared angle of the step (rad^2)
+    row r00{}, r01{}, r02{}, r10{}, r11{}, r12{}, r20{}, r21{}, r22{}; ///< matrix of the new orientation
+    row moved{};                                                       ///< largest way of a point of the clump (m)
+
+    std::size_t lanes() const { return (size + 7) / 8 * 8; }
+};
+
+namespace detail {
+
+/// Kick and drift of lane k over h (s) with local damping; `advance_rotation` for steps of small angle.
+[[gnu::always_inline, gnu::flatten]] inline void advance_lane(clump_strip& s, std::size_t k, double h, double damping) {
+    const quaternion q{s.qw[k], s.qx[k], s.qy[k], s.qz[k]};
+    const mat3 turn = matrix(q), back = transpose(turn);
+    const vec3 force{s.fx[k], s.fy[k], s.fz[k]}, moment{s.mx[k], s.my[k], s.mz[k]};
+    const vec3 v{s.vx[k], s.vy[k], s.vz[k]}, l{s.lx[k], s.ly[k], s.lz[k]};
+    const vec3 inverse{s.ix[k], s.iy[k], s.iz[k]};
+    // damping of the force by components in the world frame, of the moment in the body frame
+    const vec3 df = damping_force(force, v, damping);
+    const vec3 w = back * vec3{s.wx[k], s.wy[k], s.wz[k]};
+    const vec3 dm = damping_force(back * moment, w, damping);
+    const vec3 faster = v + (h * s.inverse_mass[k]) * (force + df);
+    const vec3 more = l + h * (moment + turn * dm);
+    const vec3 in_body = back * more;
+    s.damped[k] = -0.5 * h * (dot(df, v + faster) + dot(dm, w + scale(inverse, in_body)));
+    const vec3 spin = free_spin(in_body, inverse, h);
+    const quaternion next = renormalised(q * small_rotation(h * spin));
+    const vec3 world_spin = turn * spin;
+    const double largest = larger(inverse.x, larger(inverse.y, inverse.z));
+    s.angle2[k] = norm2(more) * (largest * largest * h * h);
+    s.vx[k] = faster.x, s.vy[k] = faster.y, s.vz[k] = faster.z;
+    s.lx[k] = more.x, s.ly[k] = more.y, s.lz[k] = more.z;
+    s.x[k] += h * faster.x, s.y[k] += h * faster.y, s.z[k] += h * faster.z;
+    s.wx[k] = world_spin.x, s.wy[k] = world_spin.y, s.wz[k] = world_spin.z;
+    s.nw[k] = next.w, s.nx[k] = next.x, s.ny[k] = next.y, s.nz[k] = next.z;
+}
+
+/// Matrix of the new orientation, and how far the clump has moved.
+[[gnu::always_inline, gnu::flatten]] inline void finish_lane(clump_strip& s, std::size_t k) {
+    const quaternion q{s.nw[k], s.nx[k], s.ny[k], s.nz[k]};
+    const quaternion d = conjugate(quaternion{s.tw[k], s.tx[k], s.ty[k], s.tz[k]}) * q;
+    const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
+    const double dx = s.x[k] - s.cx[k], dy = s.y[k] - s.cy[k], dz = s.z[k] - s.cz[k];
+    s.moved[k] = std::sqrt(dx * dx + dy * dy + dz * dz) + s.reach[k] * turned_by;
+    const mat3 m = matrix(q);
+    s.r00[k] = m.row[0].x, s.r01[k] = m.row[0].y, s.r02[k] = m.row[0].z;
+    s.r10[k] = m.row[1].x, s.r11[k] = m.row[1].y, s.r12[k] = m.row[1].z;
+    s.r20[k] = m.row[2].x, s.r21[k] = m.row[2].y, s.r22[k] = m.row[2].z;
+}
+
+} // namespace detail
+
+/// Moves the clumps of a strip by one step h (s) under their loads, with local damping of force and moment.
+[[gnu::noinline]] inline void advance(clump_strip& s, double h, double damping) {
+    const std::size_t n = s.lanes();
+#if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD)
+#pragma omp simd
+#endif
+    for (std::size_t k = 0; k < n; ++k) detail::advance_lane(s, k, h, damping);
+    for (std::size_t k = 0; k < s.size; ++k) {
+        if (s.angle2[k] < small_step2) continue;
+        const turned t = advance_rotation({s.qw[k], s.qx[k], s.qy[k], s.qz[k]}, {s.lx[k], s.ly[k], s.lz[k]},
+                                          {s.ix[k], s.iy[k], s.iz[k]}, h); // rare: the full method, one by one
+        s.nw[k] = t.q.w, s.nx[k] = t.q.x, s.ny[k] = t.q.y, s.nz[k] = t.q.z;
+        s.wx[k] = t.spin.x, s.wy[k] = t.spin.y, s.wz[k] = t.spin.z;
+    }
+#if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD)
+#pragma omp simd
+#endif
+    for (std::size_t k = 0; k < n; ++k) detail::finish_lane(s, k);
+}
+
+} // namespace clast

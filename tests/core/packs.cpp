@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include <clast/core/packs.hpp>
+
+#include <vector>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+double value(std::size_t record, std::size_t item) {
+    return 100.0 * static_cast<double>(record) + static_cast<double>(item);
+}
+} // namespace
+
+TEST_CASE("two neighbouring numbers of a block of records become two columns") {
+    double records[4][6];
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t i = 0; i < 6; ++i) records[r][i] = value(r, i);
+    const auto check = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
+        typename pack_columns<N>::records at;
+        for (std::size_t r = 0; r < N; ++r) at[r] = reinterpret_cast<const std::byte*>(records[(3 * r + 1) % 4]);
+        double first[N], second[N];
+        const pack_columns<N> c(at, 3 * sizeof(double));
+        c.first(first), c.second(second);
+        const pack_columns<N> zero = c - c, rest = pack_columns<N>(at, 4 * sizeof(double)) - c;
+        double nothing[N], ones[N];
+        zero.second(nothing), rest.first(ones);
+        for (std::size_t r = 0; r < N; ++r) {
+            CHECK(first[r] == value((3 * r + 1) % 4, 3));
+            CHECK(second[r] == value((3 * r + 1) % 4, 4));
+            CHECK(nothing[r] == 0.0);
+            CHECK(ones[r] == 1.0);
+        }
+    };
+    check(std::integral_constant<std::size_t, 2>{});
+    check(std::integral_constant<std::size_t, 4>{});
+}
+
+TEST_CASE("four columns become four records") {
+    double columns[4][4];
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t r = 0; r < 4; ++r) columns[c][r] = value(r, c);
+    std::vector<std::size_t> order;
+    transpose(columns[0], columns[1], columns[2], columns[3], [&](std::size_t r, const lane4& v) {
+        order.push_back(r);
+        for (std::size_t c = 0; c < 4; ++c) CHECK(v[c] == value(r, c));
+    });
+    CHECK(order == std::vector<std::size_t>{0, 1, 2, 3});
+}
