@@ -90,7 +90,11 @@ template <moving_unit Unit> class faceted_cylinder {
         double least = ring_smallest_[index(from)];
         for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
         const double inner = std::max(0.0, least - reach);
-        return x.x * x.x + x.y * x.y > inner * inner || inner == 0.0;
+        if (x.x * x.x + x.y * x.y <= inner * inner && inner > 0.0) return false;
+        // within the reach of the ring's innermost tile; of any tile that is there?
+        std::array<half_slab, max_slabs> slabs;
+        std::size_t n = 0;
+        return gather(x, reach, 0.0, 0.0, slabs, n) > 0.0;
     }
     /// Contacts of a sphere with the facets as they will be `ahead` seconds later at their present velocities.
     touches touch(const vec3& x, double r, double ahead = 0.0) const {
