@@ -33,7 +33,7 @@ template <class Law> struct chain {
             list.pairs.push_back({k, k + 1});
             if (k % 2 == 0) list.pairs.push_back({k, k + 7});
         }
-        list.resize_rows();
+        list.resize();
     }
 };
 

@@ -38,7 +38,7 @@ struct scene {
             const auto first = static_cast<std::int32_t>(2 * k);
             list.pairs.push_back({first, first + 1});
         }
-        list.resize_rows();
+        list.resize();
         for (std::size_t k = 0; k < n; k += 3) {
             const vec3 f = reject(any(40.0), unit(pebbles[2 * k + 1].x - pebbles[2 * k].x));
             list.history[k] = {f.x, f.y, f.z};

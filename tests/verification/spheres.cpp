@@ -177,3 +177,22 @@ TEST_CASE("spheres in a box: walls take their stress, and the audit closes") {
     for (int a = 0; a < 3; ++a) CHECK(sigma(a, a) == Approx(50e3).epsilon(5e-3));
     CHECK(std::abs(residual(e)) < 1e-3 * e.totals().boundary_work);
 }
+
+TEST_CASE("the skin finds its size by itself, from too small and from too large") {
+    const auto sheared = [](double start) {
+        auto e = packed(start);
+        e.boundary.axes[0] = {.rate = 5.0};
+        e.boundary.axes[1] = {.rate = -5.0};
+        const auto before = e.totals();
+        e.step(8000);
+        return std::pair{std::move(e), e.totals().rebuilds - before.rebuilds};
+    };
+    const auto [small, many] = sheared(0.2e-3);
+    const auto [large, few] = sheared(1.6e-3);
+    CHECK(many > 10);
+    CHECK(static_cast<double>(many) < 2.0 * static_cast<double>(few)); // eight times as many if it stayed
+    CHECK(small.skin() == Approx(large.skin()).epsilon(0.4));
+    // what costs more is done less often: open pairs in all steps against renewals
+    CHECK(small.skin() > 0.2e-3);
+    CHECK(large.skin() < 1.6e-3);
+}

@@ -66,9 +66,9 @@ template <class History> struct contact_list {
     std::vector<force_row> rows;
 
     std::size_t size() const { return pairs.size(); }
-    /// Empty rows and histories for the pairs.
-    void resize_rows() {
-        rows.assign(pairs.size(), {});
+    /// New pairs: empty histories, no rows yet, nothing asleep.
+    void resize() {
+        rows.clear();
         if constexpr (remembers) history.assign(pairs.size(), {});
         bonded.clear();
     }

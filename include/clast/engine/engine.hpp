@@ -63,7 +63,7 @@ template <triaxial_policies P> struct engine_settings {
     typename P::replacement replacement;
     double damping = 0.7;       ///< local damping coefficient in [0, 1)
     double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
-    double skin = 0.5e-3;       ///< m: pairs with a smaller gap are listed, > 0
+    double skin = 0.5e-3;       ///< m: pairs with a smaller gap are listed; the engine goes on from this value, > 0
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
     execution run = execution(1);
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
@@ -153,6 +153,7 @@ template <triaxial_policies P> class engine {
             grains.losses.resize(grains.motion.size());
         }
         smallest_mass_ = grains.smallest_mass();
+        skin_ = settings.skin;
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         if constexpr (specimen_type::turns) needed_.assign(grains.pebble_count(), 0);
         totals_.initial_energy = kinetic_energy();
@@ -172,6 +173,7 @@ template <triaxial_policies P> class engine {
     double dt() const { return dt_; }
     double time() const { return totals_.time; }
     const engine_totals& totals() const { return totals_; }
+    double skin() const { return skin_; } ///< of the present lists (m)
     int fast_steps() const { return fast_steps_; }
     std::span<const boundaries::facet_load> loads() const { return loads_; }
     const contact_list<history>& slow_contacts() const { return slow_; }
@@ -216,7 +218,8 @@ template <triaxial_policies P> class engine {
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_);
+        a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_, skin_,
+          skin_used_up_, listed_at_step_, open_pairs_);
         if constexpr (breakable) a(fast_, fast_wall_, fast_of_, ball_reference_, broken_);
         split_ranges();                                                  // as the threads of this run ask for
         fast_.rows.resize(fast_.size());                                 // written anew by the next step
@@ -965,7 +968,7 @@ template <triaxial_policies P> class engine {
             wall_travel_ = 0.0;
             for (int a = 0; a < 3; ++a) {
                 stretch_[a] = boundary.edges()[a] / reference_edges_[a];
-                wall_travel_ = std::max(wall_travel_, std::abs(stretch_[a] - 1.0) * (widest_ + settings.skin));
+                wall_travel_ = std::max(wall_travel_, std::abs(stretch_[a] - 1.0) * (widest_ + skin_));
             }
         }
     }
@@ -983,8 +986,33 @@ template <triaxial_policies P> class engine {
                 return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
             });
         if (!std::isfinite(largest)) explain_nan();
-        if (2.0 * largest + (periodic ? wall_travel_ : 0.0) >= settings.skin || largest + wall_travel_ >= settings.skin)
-            must_rebuild_ = true;
+        if (2.0 * largest + (periodic ? wall_travel_ : 0.0) >= skin_ || largest + wall_travel_ >= skin_)
+            must_rebuild_ = skin_used_up_ = true;
+    }
+    /// The skin for the lists about to be made: open pairs cost in every step and grow with the skin, renewals become
+    /// rarer with it, so that the sum is least where
+    ///
+    ///     open pairs * steps between renewals = work of a renewal
+    ///
+    /// both counted in evaluations of a pair. Counted, never timed: the same run has the same lists on any machine.
+    void choose_skin() {
+        if (!std::exchange(skin_used_up_, false)) return; // renewed for another reason: nothing learnt
+        // measured once: a renewal takes as long as 20 evaluations per body and 8 per pebble
+        const auto bodies = static_cast<double>(grains.body_count()),
+                   pebbles = static_cast<double>(grains.pebble_count());
+        const double work = 20.0 * bodies + 8.0 * pebbles;
+        const double steps = static_cast<double>(std::max<std::int64_t>(1, totals_.steps - listed_at_step_));
+        const double better = std::sqrt(work / (steps * static_cast<double>(std::max<std::size_t>(1, open_pairs_))));
+        skin_ = std::clamp(skin_ * std::clamp(better, 0.8, 1.25), 0.25 * settings.skin, 4.0 * settings.skin);
+    }
+    void count_open_pairs() {
+        open_pairs_ = 0;
+        for (const contact_list<history>* list : {&slow_, &fast_})
+            for (std::size_t k = 0; k < list->size(); ++k) {
+                const pebble_pair& p = list->pairs[k];
+                const double reach = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
+                open_pairs_ += norm2(apart(*list, k)) >= reach * reach;
+            }
     }
 
     [[noreturn]] void explain_nan() const {
@@ -1010,6 +1038,7 @@ template <triaxial_policies P> class engine {
     void rebuild() {
         place_all();
         join_ranges();
+        choose_skin();
         const std::size_t ng = grains.body_count();
         std::vector<searches::sphere> spheres;
         for (std::size_t g = 0; g < ng; ++g)
@@ -1022,7 +1051,7 @@ template <triaxial_policies P> class engine {
         const std::size_t real = spheres.size();
         std::vector<std::uint8_t> ghost_image; // of the spheres after the real ones
         if constexpr (periodic) add_ghosts(spheres, ghost_image);
-        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, settings.skin);
+        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, skin_);
 
         constexpr std::size_t chunk = 256;
         const std::size_t chunks = (near.size() + chunk - 1) / chunk;
@@ -1030,6 +1059,7 @@ template <triaxial_policies P> class engine {
         settings.run.for_each(
             chunks,
             [&](std::size_t c) {
+                std::vector<std::int32_t> near_b; // work space
                 for (std::size_t k = c * chunk; k < std::min(near.size(), (c + 1) * chunk); ++k) {
                     if (at(near[k].first) >= real) continue; // two ghosts
                     const searches::sphere& a = spheres[at(near[k].first)];
@@ -1038,7 +1068,7 @@ template <triaxial_policies P> class engine {
                     const bool light = at(a.id) >= ng || at(b.id) >= ng;
                     const std::uint8_t image =
                         at(near[k].second) >= real ? ghost_image[at(near[k].second) - real] : no_shift;
-                    pebble_pairs(a, b, image, found[c][light ? 1 : 0]);
+                    pebble_pairs(a, b, image, near_b, found[c][light ? 1 : 0]);
                 }
             },
             1);
@@ -1047,10 +1077,7 @@ template <triaxial_policies P> class engine {
             contact_list<history>& list = which == 0 ? slow : fast;
             std::vector<listed_pair> all;
             for (const auto& part : found) all.insert(all.end(), part[which].begin(), part[which].end());
-            const auto before = [order = pair_order()](const listed_pair& a, const listed_pair& b) {
-                return order(a.pair, b.pair);
-            };
-            if (!std::is_sorted(all.begin(), all.end(), before)) std::sort(all.begin(), all.end(), before);
+            sort(all);
             list.pairs.resize(all.size());
             for (std::size_t k = 0; k < all.size(); ++k) list.pairs[k] = all[k].pair;
             if constexpr (periodic) {
@@ -1059,7 +1086,7 @@ template <triaxial_policies P> class engine {
             }
         }
         for (contact_list<history>* list : {&slow, &fast}) {
-            list->resize_rows();
+            list->resize();
             list->take_histories(slow_, pair_order());
             list->take_histories(fast_, pair_order());
             if constexpr (breakable)
@@ -1070,7 +1097,7 @@ template <triaxial_policies P> class engine {
         }
         slow_ = std::move(slow);
         fast_ = std::move(fast);
-        slow_.rows.clear(); // a step that is asked for rows makes room for them
+        fast_.rows.assign(fast_.size(), {}); // those asleep behind a bond stay empty
 
         list_walls();
         index_rows();
@@ -1088,6 +1115,8 @@ template <triaxial_policies P> class engine {
             for (std::size_t b = 0; b < ng; ++b) widest_ = std::max(widest_, 2.0 * grains.bounding_radius(b));
         }
         wall_travel_ = 0.0;
+        listed_at_step_ = totals_.steps;
+        count_open_pairs();
         work_loads_.assign(loads_.size(), {});
         must_rebuild_ = false;
         ++totals_.rebuilds;
@@ -1115,7 +1144,7 @@ template <triaxial_policies P> class engine {
                 grains.place(at(s.id), [](std::size_t) { return true; });
                 s.centre = grains.centre(at(s.id));
             }
-            const double reach = widest + settings.skin;
+            const double reach = widest + skin_;
             if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
                 throw run_error({"the periodic cell is too small for its grains",
                                  fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
@@ -1134,27 +1163,52 @@ template <triaxial_policies P> class engine {
         }
     }
 
+    /// Pairs of pebbles of two bodies, in the order of the lists. near_b: work space, pebbles of a that b may reach.
     void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::uint8_t image,
-                      std::vector<listed_pair>& out) const {
+                      std::vector<std::int32_t>& near_b, std::vector<listed_pair>& out) const {
         vec3 shift;
         if constexpr (periodic) shift = image_shift(image, boundary.edges());
         const auto range = [&](const searches::sphere& s) {
             const std::size_t ng = grains.body_count();
             return at(s.id) >= ng ? index_range{at(s.id) - ng, at(s.id) - ng + 1} : grains.pebbles_of(at(s.id));
         };
+        const auto pebble = [&](std::size_t p) {
+            return searches::sphere{grains.pebbles[p].x, grains.pebbles[p].radius};
+        };
         const auto [a0, a1] = range(a);
         const auto [b0, b1] = range(b);
-        for (std::size_t j = b0; j < b1; ++j) { // the order of the lists
-            const searches::sphere pj{grains.pebbles[j].x + shift, grains.pebbles[j].radius};
-            if (!searches::within(a, pj, settings.skin)) continue;
-            for (std::size_t i = a0; i < a1; ++i)
-                if (searches::within({grains.pebbles[i].x, grains.pebbles[i].radius}, pj, settings.skin)) {
-                    const auto p = static_cast<std::int32_t>(i), q = static_cast<std::int32_t>(j);
+        near_b.clear();
+        for (std::size_t i = a0; i < a1; ++i)
+            if (a1 - a0 == 1 || searches::within(pebble(i), b, skin_)) near_b.push_back(static_cast<std::int32_t>(i));
+        if (near_b.empty()) return;
+        for (std::size_t j = b0; j < b1; ++j) {
+            searches::sphere pj = pebble(j);
+            pj.centre += shift;
+            if (a1 - a0 > 1 && !searches::within(a, pj, skin_)) continue;
+            for (std::int32_t p : near_b)
+                if (searches::within(pebble(at(p)), pj, skin_)) {
+                    const auto q = static_cast<std::int32_t>(j);
                     // seen from j, it is i that lies the other way
                     out.push_back(p < q ? listed_pair{{p, q}, image}
                                         : listed_pair{{q, p}, static_cast<std::uint8_t>(2 * no_shift - image)});
                 }
         }
+    }
+    /// Into the order of the lists: by the group of the first pebble, then each group, which is short.
+    void sort(std::vector<listed_pair>& all) const {
+        const auto before = [order = pair_order()](const listed_pair& a, const listed_pair& b) {
+            return order(a.pair, b.pair);
+        };
+        if (std::is_sorted(all.begin(), all.end(), before)) return;
+        std::vector<std::uint32_t> start(grains.grain_count() + 1, 0);
+        for (const listed_pair& p : all) ++start[grains.group_of(p.pair.i) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<listed_pair> sorted(all.size());
+        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+        for (const listed_pair& p : all) sorted[next[grains.group_of(p.pair.i)]++] = p;
+        for (std::size_t g = 0; g + 1 < start.size(); ++g)
+            std::sort(sorted.begin() + start[g], sorted.begin() + start[g + 1], before);
+        all = std::move(sorted);
     }
 
     bool is_bonded(const pebble_pair& p) const {
@@ -1174,10 +1228,10 @@ template <triaxial_policies P> class engine {
         slow_wall_.clear(), fast_wall_.clear();
         for (std::size_t g = 0; g < grains.body_count(); ++g) {
             const bool swept = grains.is_swept(g);
-            if (swept && !boundary.near(grains.centre(g), grains.bounding_radius(g) + settings.skin)) continue;
+            if (swept && !boundary.near(grains.centre(g), grains.bounding_radius(g) + skin_)) continue;
             const index_range pebbles = grains.pebbles_of(g);
             for (std::size_t p = pebbles.begin; p < pebbles.end; ++p) {
-                if (!boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + settings.skin)) continue;
+                if (!boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + skin_)) continue;
                 wall_row w;
                 w.pebble = static_cast<std::int32_t>(p);
                 (swept ? slow_wall_ : fast_wall_).push_back(w);
@@ -1426,6 +1480,10 @@ template <triaxial_policies P> class engine {
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
     double wall_travel_ = 0.0;
+    double skin_ = 0.0;         ///< of the present lists (m)
+    bool skin_used_up_ = false; ///< the next renewal is due because grains moved
+    std::int64_t listed_at_step_ = 0;
+    std::size_t open_pairs_ = 0;              ///< listed pairs that did not touch then
     std::vector<std::uint32_t> across_;       ///< contacts across a face of a periodic cell, ascending
     std::vector<vec3> across_force_;          ///< and the forces on their first body (N)
     std::vector<std::uint32_t> across_order_; ///< their numbers, in the order of one thread
