@@ -143,8 +143,8 @@ TEST_CASE("two bonded balls swing at the frequency of their bond, in the exact n
         double worst = 0.0;
         for (int k = 1; k <= 1000; ++k) {
             two.step(dt);
-            // from zero force: velocity after step k is v cos(turning (k - 1/2)) / cos(turning / 2)
-            const double expected = std::cos(turning * (k - 0.5)) / std::cos(0.5 * turning);
+            // from zero force, half a drift at either end of a step
+            const double expected = std::cos(turning * k);
             worst = std::max(worst, norm(two.motion[1].velocity - expected * now.b.velocity) / v);
             worst = std::max(worst, norm(two.motion[1].spin - expected * now.b.spin) / (roll + w));
         }
