@@ -42,7 +42,7 @@ TEST_CASE("four columns become four records") {
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t r = 0; r < 4; ++r) columns[c][r] = value(r, c);
     std::vector<std::size_t> order;
-    transpose(columns[0], columns[1], columns[2], columns[3], [&](std::size_t r, const lane4& v) {
+    transpose(columns[0], columns[1], columns[2], columns[3], [&](std::size_t r, const quad& v) {
         order.push_back(r);
         for (std::size_t c = 0; c < 4; ++c) CHECK(v[c] == value(r, c));
     });

@@ -39,6 +39,7 @@ struct scene {
             list.pairs.push_back({first, first + 1});
         }
         list.resize();
+        list.rows.resize(n);
         for (std::size_t k = 0; k < n; k += 3) {
             const vec3 f = reject(any(40.0), unit(pebbles[2 * k + 1].x - pebbles[2 * k].x));
             list.history[k] = {f.x, f.y, f.z};
@@ -170,7 +171,7 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
             const vec3 at = clumps[i].x + (clumps[i].radius - 0.5 * row.depth) * row.normal;
             body_load a, b;
             load.add_to_i(a), load.add_to_j(b);
-            const auto is = [](const lane4& v, const vec3& w) {
+            const auto is = [](const quad& v, const vec3& w) {
                 return norm(vec3{v[0], v[1], v[2]} - w) <= 1e-12 * (norm(w) + 1e-9);
             };
             CHECK(is(a.force, row.force));

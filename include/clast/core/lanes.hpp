@@ -13,6 +13,13 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
+// A program built for every x86-64 processor has registers of two doubles; nearly every processor has some of four.
+// Loops that decide the speed are compiled for both (clast::fast) and the processor is asked when they run. Without
+// fused multiply-add, so the bits do not depend on the processor.
+#if defined(CLAST_OPENMP_SIMD) && defined(__x86_64__) && !defined(__AVX__) && defined(__GNUC__)
+#define CLAST_WIDER_AT_RUN_TIME
+#endif
+
 namespace clast {
 
 /// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set,

@@ -70,22 +70,73 @@ template <std::size_t N> class pack_columns {
     lane even_, odd_; ///< of records 0, 2 and 1, 3 (or 0 and 1)
 };
 
+/// Four doubles with elementwise arithmetic, in as many registers as the target needs.
+class quad {
+  public:
+    quad() = default;
+    [[gnu::always_inline]] quad(double x, double y, double z, double w) {
+        const double v[4] = {x, y, z, w};
+        std::memcpy(part_, v, sizeof v);
+    }
+    [[gnu::always_inline]] static quad load(const double* from) {
+        quad q;
+        std::memcpy(q.part_, from, sizeof q.part_);
+        return q;
+    }
+    [[gnu::always_inline]] void store(void* to) const { std::memcpy(to, part_, sizeof part_); }
+    [[gnu::always_inline]] double operator[](std::size_t k) const { return part_[k / pack_size][k % pack_size]; }
+
+    [[gnu::always_inline]] quad& operator+=(const quad& b) {
+        for (std::size_t k = 0; k < parts; ++k) part_[k] += b.part_[k];
+        return *this;
+    }
+    [[gnu::always_inline]] quad& operator-=(const quad& b) {
+        for (std::size_t k = 0; k < parts; ++k) part_[k] -= b.part_[k];
+        return *this;
+    }
+    [[gnu::always_inline]] friend quad operator+(quad a, const quad& b) { return a += b; }
+    [[gnu::always_inline]] friend quad operator*(double s, quad a) {
+        for (std::size_t k = 0; k < parts; ++k) a.part_[k] *= s;
+        return a;
+    }
+    /// The same with another fourth number.
+    [[gnu::always_inline]] quad with_fourth(double w) const {
+        quad q = *this;
+        q.part_[parts - 1][pack_size - 1] = w;
+        return q;
+    }
+
+  private:
+    using pack = std::conditional_t<pack_size == 4, lane4, lane2>;
+    static constexpr std::size_t parts = 4 / pack_size;
+    pack part_[parts] = {};
+};
+
 /// put(l, {x[l], y[l], z[l], w[l]}) for l = 0 to 3.
 template <class F>
 [[gnu::always_inline]] inline void transpose(const double* x, const double* y, const double* z, const double* w,
                                              F&& put) {
+#if defined(__AVX__)
     const auto load = [](const double* p) {
         lane4 v;
         std::memcpy(&v, p, sizeof v);
         return v;
     };
+    const auto out = [&](std::size_t l, const lane4& v) {
+        double record[4];
+        std::memcpy(record, &v, sizeof v);
+        put(l, quad::load(record));
+    };
     const lane4 a = load(x), b = load(y), c = load(z), d = load(w);
     const lane4 xy_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), xy_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const lane4 zw_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), zw_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    put(0, __builtin_shufflevector(xy_even, zw_even, 0, 1, 4, 5));
-    put(1, __builtin_shufflevector(xy_odd, zw_odd, 0, 1, 4, 5));
-    put(2, __builtin_shufflevector(xy_even, zw_even, 2, 3, 6, 7));
-    put(3, __builtin_shufflevector(xy_odd, zw_odd, 2, 3, 6, 7));
+    out(0, __builtin_shufflevector(xy_even, zw_even, 0, 1, 4, 5));
+    out(1, __builtin_shufflevector(xy_odd, zw_odd, 0, 1, 4, 5));
+    out(2, __builtin_shufflevector(xy_even, zw_even, 2, 3, 6, 7));
+    out(3, __builtin_shufflevector(xy_odd, zw_odd, 2, 3, 6, 7));
+#else
+    for (std::size_t l = 0; l < 4; ++l) put(l, quad(x[l], y[l], z[l], w[l]));
+#endif
 }
 
 } // namespace clast

@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include <clast/contacts/concepts.hpp>
+#include <clast/core/lanes.hpp>
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/engine/contact_list.hpp>
@@ -55,15 +56,15 @@ template <contacts::contact_law Law, class Pebble> struct strip {
 /// Force and moment on a body as the kernel sums them; the fourth numbers fill the register (of the force: nothing of
 /// use; of the moment: energy dissipated, J).
 struct alignas(64) body_load {
-    lane4 force{};  ///< N
-    lane4 moment{}; ///< about its centre (N m)
+    quad force;  ///< N
+    quad moment; ///< about its centre (N m)
 };
 
 /// What one contact adds to the loads of its two bodies.
 struct alignas(32) contact_load {
-    lane4 force;    ///< on i; j takes the opposite
-    lane4 moment_i; ///< and the energy dissipated, which is booked on i
-    lane4 moment_j;
+    quad force;    ///< on i; j takes the opposite
+    quad moment_i; ///< and the energy dissipated, which is booked on i
+    quad moment_j;
 
     [[gnu::always_inline]] void add_to_i(body_load& i) const { i.force += force, i.moment += moment_i; }
     [[gnu::always_inline]] void add_to_j(body_load& j) const { j.force -= force, j.moment += moment_j; }
@@ -145,6 +146,25 @@ template <class Law, class Pebble>
 }
 } // namespace detail
 
+namespace detail {
+template <class Law, class Pebble>
+[[gnu::always_inline]] inline void answer_all(strip<Law, Pebble>& s, typename Law::history* history, const Law& law,
+                                              double h) {
+    const std::size_t n = s.lanes();
+#if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD) // the latter comes with clast::fast and its -fopenmp-simd
+#pragma omp simd
+#endif
+    for (std::size_t k = 0; k < n; ++k) detail::answer(s, history, k, law, h);
+}
+#if defined(CLAST_WIDER_AT_RUN_TIME)
+template <class Law, class Pebble>
+[[gnu::noinline, gnu::target("avx2")]] void answer_all_wide(strip<Law, Pebble>& s, typename Law::history* history,
+                                                            const Law law, double h) {
+    answer_all(s, history, law, h);
+}
+#endif
+} // namespace detail
+
 /// Answers all contacts of a strip; `history` holds those of its lanes before, and then after. h: span since their last
 /// evaluation (s). Pairs that do not touch exert nothing, whatever the law says; what it makes of their history and
 /// energy holds.
@@ -153,11 +173,10 @@ template <class Law, class Pebble>
 /// position and velocity belong to the same instant.
 template <class Law, class Pebble>
 [[gnu::noinline]] void evaluate(strip<Law, Pebble>& s, typename Law::history* history, const Law law, double h) {
-    const std::size_t n = s.lanes();
-#if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD) // the latter comes with clast::fast and its -fopenmp-simd
-#pragma omp simd
+#if defined(CLAST_WIDER_AT_RUN_TIME)
+    if (__builtin_cpu_supports("avx2")) return detail::answer_all_wide(s, history, law, h);
 #endif
-    for (std::size_t k = 0; k < n; ++k) detail::answer(s, history, k, law, h);
+    detail::answer_all(s, history, law, h);
 }
 
 /// Evaluates contacts [begin, end) of a list, at most a strip; histories go on in the list, results stay in the strip.
@@ -199,11 +218,11 @@ template <class Law, class Pebble, class F>
     alignas(64) contact_load load[4];
     alignas(64) static constexpr double nothing[strip<Law, Pebble>::length] = {};
     for (std::size_t k = 0; k < s.size; k += 4) {
-        transpose(s.fx + k, s.fy + k, s.fz + k, nothing, [&](std::size_t l, const lane4& v) { load[l].force = v; });
+        transpose(s.fx + k, s.fy + k, s.fz + k, nothing, [&](std::size_t l, const quad& v) { load[l].force = v; });
         transpose(s.tix + k, s.tiy + k, s.tiz + k, s.dissipated + k,
-                  [&](std::size_t l, const lane4& v) { load[l].moment_i = v; });
+                  [&](std::size_t l, const quad& v) { load[l].moment_i = v; });
         transpose(s.tjx + k, s.tjy + k, s.tjz + k, nothing,
-                  [&](std::size_t l, const lane4& v) { load[l].moment_j = v; });
+                  [&](std::size_t l, const quad& v) { load[l].moment_j = v; });
         if (k + 4 <= s.size)
             for (std::size_t l = 0; l < 4; ++l) f(k + l, load[l]);
         else

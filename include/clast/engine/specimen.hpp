@@ -241,7 +241,7 @@ struct specimen {
         }
         void put(std::int32_t p, clump_pebble& to) const {
             const vec3& o = pebbles_[p - first_].offset;
-            const lane4 arm = o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2];
+            const quad arm = o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2];
             set(to, sizeof(pebble_motion), arm, 0.0);
             set(to, offsetof(pebble_motion, x), x_ + arm, to.radius);
             set(to, offsetof(pebble_motion, v), v_ + (o.x * swing_[0] + o.y * swing_[1] + o.z * swing_[2]),
@@ -250,16 +250,15 @@ struct specimen {
         }
 
       private:
-        static lane4 lane(const vec3& a) { return lane4{a.x, a.y, a.z, 0.0}; }
+        static quad lane(const vec3& a) { return {a.x, a.y, a.z, 0.0}; }
         /// A block of four numbers at once.
-        static void set(clump_pebble& to, std::size_t at, lane4 value, double fourth) {
-            value[3] = fourth;
-            std::memcpy(reinterpret_cast<std::byte*>(&to) + at, &value, sizeof value);
+        static void set(clump_pebble& to, std::size_t at, const quad& value, double fourth) {
+            value.with_fourth(fourth).store(reinterpret_cast<std::byte*>(&to) + at);
         }
 
         const shape_pebble* pebbles_;
         std::int32_t first_;
-        lane4 x_, v_, w_, turn_[3], swing_[3];
+        quad x_, v_, w_, turn_[3], swing_[3];
     };
     void fill(clump_strip& s, std::size_t k, std::size_t g, const load_sum& load, const reference& since,
               const vec3& stretch) const {
