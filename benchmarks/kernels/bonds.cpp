@@ -28,7 +28,8 @@ void cluster_step(benchmark::State& state) {
     std::vector<bonds::ball_motion> balls(pool.batches() * balls_per_batch);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> u(-1e-3, 1e-3);
-    for (bonds::ball_motion& one : balls) one.velocity = {u(random), u(random), u(random)};
+    for (std::size_t k = 0; k < balls.size(); ++k)
+        balls[k] = {{u(random), u(random), u(random)}, {}, pool.shape().offset[k % pool.shape().size()]};
     const std::vector<bonds::pebble_load> load(balls_per_batch);
     std::vector<vec3> moved(balls_per_batch);
     std::vector<bonds::break_report> broken;
@@ -36,9 +37,7 @@ void cluster_step(benchmark::State& state) {
 
     for (auto _ : state)
         for (std::size_t b = 0; b < pool.batches(); ++b)
-            pool.advance(
-                b, dt, std::span(balls).subspan(b * balls_per_batch, balls_per_batch), load, moved,
-                [&](std::size_t, std::size_t bond) { return pool.shape().normal[bond]; }, broken);
+            pool.advance(b, dt, std::span(balls).subspan(b * balls_per_batch, balls_per_batch), load, moved, broken);
     benchmark::DoNotOptimize(moved.data());
     if (!broken.empty()) state.SkipWithError("a bond broke");
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(clusters * pool.bonds()) *

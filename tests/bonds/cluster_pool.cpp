@@ -62,10 +62,11 @@ struct world {
             std::vector<pebble_load> loads(lanes * n);
             std::vector<vec3> moved(lanes * n);
             const std::size_t from = batch * lanes * n, to = std::min(position.size(), from + lanes * n);
-            for (std::size_t k = from; k < to; ++k) balls[k - from] = motion[k], loads[k - from] = load[k];
-            const auto lost = pool.advance(
-                batch, dt, balls, loads, moved,
-                [&](std::size_t l, std::size_t b) { return normal(batch * lanes + l, b, 0.5 * dt); }, broken);
+            for (std::size_t k = from; k < to; ++k) {
+                balls[k - from] = {motion[k].velocity, motion[k].spin, position[k] + 0.5 * dt * motion[k].velocity};
+                loads[k - from] = load[k];
+            }
+            const auto lost = pool.advance(batch, dt, balls, loads, moved, broken);
             for (const double d : lost) dissipated += d;
             for (std::size_t k = from; k < to; ++k) {
                 work += dot(load[k].force, moved[k - from]);

@@ -325,7 +325,7 @@ TEST_CASE("shear force and bending moment follow a bond that turns, keep their s
         CHECK(error[1] < 0.55 * error[0]);
     }
     state nothing;
-    turn(nothing, {0, 0, 1}, {1, 2, 3}, 0.1);
+    turn(nothing, vec3{0, 0, 1}, vec3{1, 2, 3}, 0.1);
     CHECK((nothing.v == vec3{} && nothing.mb == vec3{}));
 }
 

@@ -49,17 +49,32 @@ TEST_CASE("histories move to the pairs that both lists have, in any order they s
     for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.history[k].x == expected[k]);
 }
 
+TEST_CASE("a pair that wakes up stands in its place, with nothing remembered") {
+    contact_list<contacts::linear::history> list;
+    const std::less<pebble_pair> before;
+    list.pairs = {{0, 1}, {3, 4}};
+    list.resize();
+    list.rows.resize(2);
+    list.history[1].x = 7.0, list.rows[1].depth = 3.0;
+    list.insert({1, 2}, before);
+    list.insert({5, 6}, before);
+    CHECK(list.pairs == std::vector<pebble_pair>{{0, 1}, {1, 2}, {3, 4}, {5, 6}});
+    CHECK((list.history[1].x == 0.0 && list.history[2].x == 7.0 && list.history[3].x == 0.0));
+    CHECK((list.rows.size() == 4 && list.rows[1].depth == 0.0 && list.rows[2].depth == 3.0));
+    contact_list<nothing> first;
+    first.insert({0, 1}, before);
+    CHECK((first.size() == 1 && first.rows.size() == 1));
+}
+
 TEST_CASE("a list comes back from an archive with its histories, and without rows") {
     contact_list<contacts::linear::history> list;
     list.pairs = {{0, 1}, {3, 4}};
     list.resize();
     list.history[1] = {1.5, -2.5, 3.5};
-    list.bonded = {1, 0};
     contact_list<contacts::linear::history> copy;
     from_bytes(to_bytes(list), copy);
     CHECK(copy.pairs == list.pairs);
     CHECK(copy.history[1].y == -2.5);
-    CHECK(copy.bonded == list.bonded);
     CHECK(copy.rows.empty());
     CHECK(checksum(copy) == checksum(list));
 }
@@ -70,7 +85,6 @@ TEST_CASE("a list of a law without history goes into an archive as well") {
     list.resize();
     from_bytes(to_bytes(list), copy);
     CHECK(copy.pairs == list.pairs);
-    CHECK(copy.bonded.empty()); // no bond, no memory for them
     CHECK(copy.history.empty());
 }
 

@@ -121,17 +121,6 @@ TEST_CASE("where a list is cut into strips does not change a bit") {
     CHECK_FALSE(same_bits(whole.list, parts.list)); // the comparison sees a single contact
 }
 
-TEST_CASE("a contact asleep behind a bond keeps its history and exerts nothing") {
-    scene s(10);
-    s.list.history[4] = {1.0, 2.0, 3.0};
-    s.list.bonded.assign(10, 0);
-    s.list.bonded[4] = 1;
-    evaluate_all(s, 0, 10);
-    CHECK(s.list.history[4].z == 3.0);
-    CHECK(s.list.rows[4].force == vec3{});
-    CHECK(s.list.rows[4].depth == 0.0);
-}
-
 TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
     scene near(20), far(20);
     const vec3 edge{3.0, -2.0, 0.5}, speed{0.1, 0.0, -0.3};

@@ -18,8 +18,9 @@ namespace clast::bonds {
 
 /// What a ball of a cluster brings into a sub-cycle and takes out of it.
 struct ball_motion {
-    vec3 velocity; ///< m/s
-    vec3 spin;     ///< rad/s
+    vec3 velocity;      ///< m/s
+    vec3 spin;          ///< rad/s
+    vec3 position = {}; ///< at the middle of the step (m)
 };
 
 /// A bond that failed in a sub-cycle.
@@ -88,14 +89,12 @@ class cluster_pool {
     int substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt * shape_.highest_frequency))); }
 
     /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes,
-    /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved; `normal(lane, bond)` gives the
-    /// unit normals at the middle of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in
-    /// steps of 1 us strains its bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes,
-    /// are left alone. Returns the energy taken out by damping per lane; broken bonds are appended to `broken`, ordered
-    /// by step, bond and lane.
-    template <class Normal>
+    /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved. Normals are those of the middle
+    /// of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of 1 us strains its
+    /// bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes, are left alone. Returns
+    /// the energy taken out by damping per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
     std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
-                                      std::span<const pebble_load> load, std::span<vec3> displacement, Normal&& normal,
+                                      std::span<const pebble_load> load, std::span<vec3> displacement,
                                       std::vector<break_report>& broken) {
         const std::size_t n = shape_.size(), m = bonds();
         std::array<double, lanes> dissipated{};
@@ -108,7 +107,7 @@ class cluster_pool {
         }
         if (!any) return dissipated;
 
-        // lane-wise copies: v, w, external f and t, summed f and t, displacement
+        // lane-wise copies: v, w, external f and t, summed f and t, displacement (positions before that)
         std::vector<double> scratch((n * 21 + m * 3) * lanes, 0.0);
         double* const v = scratch.data();
         double* const w = v + n * 3 * lanes;
@@ -123,7 +122,6 @@ class cluster_pool {
         };
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
-            const std::size_t c = batch * lanes + l;
             for (std::size_t i = 0; i < n; ++i) {
                 const ball_motion& ball = balls[l * n + i];
                 const pebble_load& external = load[l * n + i];
@@ -131,16 +129,20 @@ class cluster_pool {
                     const std::size_t k = at(i, static_cast<std::size_t>(a), l);
                     v[k] = ball.velocity[a], w[k] = ball.spin[a];
                     fe[k] = external.force[a], te[k] = external.moment[a];
+                    u[k] = ball.position[a];
                 }
             }
-            for (std::size_t b = 0; b < m; ++b) {
-                const vec3 nb = normal(l, b);
-                for (int a = 0; a < 3; ++a) axis[at(b, static_cast<std::size_t>(a), l)] = nb[a];
-                state s = get(c, b);
-                const std::size_t i = end_a(b), j = end_b(b);
-                turn(s, nb, 0.5 * (balls[l * n + i].spin + balls[l * n + j].spin), dt);
-                put(c, b, s);
-            }
+        }
+        for (std::size_t b = 0; b < m; ++b) {
+            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
+            double* const s = values_.data() + base(batch, b);
+            const vec3x8 d = load3x8(u + j) - load3x8(u + i);
+            const vec3x8 normal = ratio(lane8{} + 1.0, root(norm2(d))) * d; // zero in lanes without a cluster
+            state_x8 bond{{}, load3x8(s + shear * lanes), {}, load3x8(s + bending * lanes)};
+            turn(bond, normal, 0.5 * (load3x8(w + i) + load3x8(w + j)), dt);
+            store3x8(s + shear * lanes, bond.v);
+            store3x8(s + bending * lanes, bond.mb);
+            store3x8(axis + b * 3 * lanes, normal);
         }
         const int steps = substeps(dt);
         const double h = dt / steps;

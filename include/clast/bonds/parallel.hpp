@@ -130,15 +130,14 @@ template <class State, class Vector> inline auto loads(const State& s, const Vec
 }
 
 /// Turns shear force and bending moment into the plane of the new normal and with the mean spin about it over dt,
-/// keeping their size: turning must not do work.
-inline void turn(state& s, const vec3& n, const vec3& mean_spin, double dt) {
-    const double angle = dot(mean_spin, n) * dt;
-    const auto follow = [&](vec3& a) {
-        const double before = norm2(a);
-        a = reject(a, n);
+/// keeping their size: turning must not do work. For one bond or eight of a kind.
+template <class State, class Vector> inline void turn(State& s, const Vector& n, const Vector& mean_spin, double dt) {
+    const auto angle = dot(mean_spin, n) * dt;
+    const auto follow = [&](Vector& a) {
+        const auto before = norm2(a);
+        a = a - dot(a, n) * n;
         a += angle * cross(n, a);
-        const double after = norm2(a);
-        if (after > 0.0) a *= std::sqrt(before / after);
+        a = root(ratio(before, norm2(a))) * a;
     };
     follow(s.v);
     follow(s.mb);

@@ -2,6 +2,7 @@
 // Eight doubles side by side, and vectors of them: the same arithmetic text serves one item or eight.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -44,6 +45,20 @@ inline double sign_of(double a) { return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : 0.0; }
 inline lane8 sign_of(const lane8& a) {
     const lane8 zero{}, one = zero + 1.0;
     return (a > zero ? one : zero) - (a < zero ? one : zero);
+}
+
+/// Square root, and a / b with 1 where b is 0, for one number or for lanes.
+inline double root(double a) { return std::sqrt(a); }
+inline lane8 root(const lane8& a) {
+    alignas(64) double x[lanes];
+    store8(x, a);
+    for (std::size_t l = 0; l < lanes; ++l) x[l] = std::sqrt(x[l]); // compilers make one instruction of it, or a few
+    return load8(x);
+}
+inline double ratio(double a, double b) { return b > 0.0 ? a / b : 1.0; }
+inline lane8 ratio(const lane8& a, const lane8& b) {
+    const lane8 zero{}, one = zero + 1.0;
+    return b > zero ? a / b : one;
 }
 
 /// Cartesian vectors of eight items.

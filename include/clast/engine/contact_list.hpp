@@ -60,23 +60,27 @@ template <class History> struct contact_list {
     static constexpr bool remembers = !std::is_empty_v<History>;
 
     std::vector<pebble_pair> pairs;
-    std::vector<History> history;     ///< empty if the law has none
-    std::vector<std::uint8_t> image;  ///< in a periodic cell: which image of j is meant (image_shift); else empty
-    std::vector<std::uint8_t> bonded; ///< 1: an intact bond carries this pair and the contact is asleep; empty: none
+    std::vector<History> history;    ///< empty if the law has none
+    std::vector<std::uint8_t> image; ///< in a periodic cell: which image of j is meant (image_shift); else empty
     std::vector<force_row> rows;
 
     std::size_t size() const { return pairs.size(); }
-    /// New pairs: empty histories, no rows yet, nothing asleep.
+    /// New pairs: empty histories, no rows yet.
     void resize() {
         rows.clear();
         if constexpr (remembers) history.assign(pairs.size(), {});
-        bonded.clear();
     }
-    bool is_asleep(std::size_t k) const { return !bonded.empty() && bonded[k] != 0; }
     /// Position of a pair, or size() if it is not listed. before(a, b): the order in which the list was sorted.
     template <class Order> std::size_t find(const pebble_pair& p, Order&& before) const {
         const auto it = std::lower_bound(pairs.begin(), pairs.end(), p, before);
         return it != pairs.end() && *it == p ? static_cast<std::size_t>(it - pairs.begin()) : pairs.size();
+    }
+    /// Adds a pair in its place, with an empty history and an empty row.
+    template <class Order> void insert(const pebble_pair& p, Order&& before) {
+        const auto k = std::lower_bound(pairs.begin(), pairs.end(), p, before) - pairs.begin();
+        pairs.insert(pairs.begin() + k, p);
+        if constexpr (remembers) history.insert(history.begin() + k, History{});
+        if (!rows.empty() || size() == 1) rows.insert(rows.begin() + k, force_row{});
     }
     /// Takes over the histories of the pairs that `old` has, too; both lists are sorted by `before`.
     template <class Order> void take_histories(const contact_list& old, Order&& before) {
@@ -98,12 +102,11 @@ template <class History> struct contact_list {
         permute(pairs);
         if (!rows.empty()) permute(rows);
         if constexpr (remembers) permute(history);
-        if (!bonded.empty()) permute(bonded);
         if (!image.empty()) permute(image);
     }
 
     template <class A> void archive(A& a) {
-        a(pairs, image, bonded);
+        a(pairs, image);
         if constexpr (remembers) a(history);
         if (rows.size() != pairs.size()) rows.clear(); // written anew by the next step
     }

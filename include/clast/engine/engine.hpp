@@ -178,6 +178,8 @@ template <triaxial_policies P> class engine {
     std::span<const boundaries::facet_load> loads() const { return loads_; }
     const contact_list<history>& slow_contacts() const { return slow_; }
     const contact_list<history>& fast_contacts() const { return fast_; }
+    /// Pairs of balls that an intact bond carries: no contacts until it breaks.
+    std::span<const pebble_pair> bonded_pairs() const requires breakable { return asleep_; }
     const breakage_state& breakage() const requires breakable { return broken_; }
     /// Broken bonds since the last call, in the order in which they broke.
     std::vector<fracture_event> take_events() {
@@ -220,7 +222,7 @@ template <triaxial_policies P> class engine {
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_, skin_,
           skin_used_up_, listed_at_step_, open_pairs_);
-        if constexpr (breakable) a(fast_, fast_wall_, fast_of_, ball_reference_, broken_);
+        if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, ball_reference_, broken_);
         split_ranges();                                                  // as the threads of this run ask for
         fast_.rows.resize(fast_.size());                                 // written anew by the next step
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
@@ -283,7 +285,6 @@ template <triaxial_policies P> class engine {
     double elastic_energy() const {
         double e = 0.0;
         const auto add = [&](const contact_list<history>& list, std::size_t k) {
-            if (list.is_asleep(k)) return;
             const auto& pr = list.pairs[k];
             const double d = norm(apart(list, k));
             const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius;
@@ -726,16 +727,12 @@ template <triaxial_policies P> class engine {
                             const body_motion& m = grains.motion[b];
                             const load_sum s =
                                 sum_rows(fast_of_, b, fast_, fast_wall_, grains.pebbles[first[l] + k].x, 0.0);
-                            balls[l * n + k] = {m.v, m.w};
+                            balls[l * n + k] = {m.v, m.w, grains.pebbles[first[l] + k].x};
                             load[l * n + k] = {s.force, s.moment};
                             grains.losses[b].friction += s.dissipated;
                         }
                     }
-                    const auto normal = [&](std::size_t l, std::size_t e) {
-                        const shape_bond& ends = pool.shape().ends[e];
-                        return unit(grains.pebbles[first[l] + at(ends.b)].x - grains.pebbles[first[l] + at(ends.a)].x);
-                    };
-                    const auto lost = pool.advance(batch, h, balls, load, moved, normal, reports[batch]);
+                    const auto lost = pool.advance(batch, h, balls, load, moved, reports[batch]);
                     for (std::size_t l = 0; l < lanes; ++l) {
                         if (!live[l]) continue;
                         for (std::size_t k = 0; k < n; ++k) {
@@ -749,8 +746,10 @@ template <triaxial_policies P> class engine {
                     }
                 },
                 1);
+            const std::size_t listed = fast_.size();
             for (const auto& batch : reports)
                 for (const bonds::break_report& r : batch) record_break(which, r);
+            if (fast_.size() != listed) index_fast();
         }
     }
 
@@ -780,8 +779,9 @@ template <triaxial_policies P> class engine {
             totals_.bond_dissipation += e.energy;
             ++(r.mode == break_mode::tension ? totals_.broken_tension : totals_.broken_shear);
             // the pair goes on as a frictional contact
-            const std::size_t k = fast_.find(pair, pair_order());
-            if (k < fast_.size()) fast_.bonded[k] = 0;
+            const auto order = pair_order();
+            const auto k = std::lower_bound(asleep_.begin(), asleep_.end(), pair, order);
+            if (k != asleep_.end() && *k == pair) asleep_.erase(k), fast_.insert(pair, order);
             update_fragments(which, r.cluster);
             estimate_due_ = true; // a lighter piece may need a smaller sub-step
         }
@@ -1078,6 +1078,15 @@ template <triaxial_policies P> class engine {
             std::vector<listed_pair> all;
             for (const auto& part : found) all.insert(all.end(), part[which].begin(), part[which].end());
             sort(all);
+            if constexpr (breakable)
+                if (which == 1) { // what a bond carries sleeps as a contact
+                    asleep_.clear();
+                    std::erase_if(all, [&](const listed_pair& p) {
+                        if (!is_bonded(p.pair)) return false;
+                        asleep_.push_back(p.pair);
+                        return true;
+                    });
+                }
             list.pairs.resize(all.size());
             for (std::size_t k = 0; k < all.size(); ++k) list.pairs[k] = all[k].pair;
             if constexpr (periodic) {
@@ -1089,15 +1098,10 @@ template <triaxial_policies P> class engine {
             list->resize();
             list->take_histories(slow_, pair_order());
             list->take_histories(fast_, pair_order());
-            if constexpr (breakable)
-                if (list == &fast) {
-                    list->bonded.resize(list->size());
-                    for (std::size_t k = 0; k < list->size(); ++k) list->bonded[k] = is_bonded(list->pairs[k]) ? 1 : 0;
-                }
         }
         slow_ = std::move(slow);
         fast_ = std::move(fast);
-        fast_.rows.assign(fast_.size(), {}); // those asleep behind a bond stay empty
+        fast_.rows.assign(fast_.size(), {});
 
         list_walls();
         index_rows();
@@ -1239,6 +1243,10 @@ template <triaxial_policies P> class engine {
         }
     }
 
+    void index_fast() {
+        fast_of_ =
+            incidence(grains.motion.size(), fast_, fast_wall_, [&](std::int32_t p) { return grains.body_of(p); });
+    }
     void index_rows() {
         const auto body_of = [&](std::int32_t p) { return grains.body_of(p); };
         slow_of_ = incidence(grains.body_count(), slow_, slow_wall_, body_of);
@@ -1250,7 +1258,7 @@ template <triaxial_policies P> class engine {
         };
         need(slow_, slow_wall_);
         if constexpr (breakable) {
-            fast_of_ = incidence(grains.motion.size(), fast_, fast_wall_, body_of);
+            index_fast();
             need(fast_, fast_wall_);
             for (std::size_t g = 0; g < grains.grain_count(); ++g)
                 broken_.halo[g] = grains.is_clump(g) && !fast_of_.of(g).empty() ? 1 : 0;
@@ -1386,7 +1394,7 @@ template <triaxial_policies P> class engine {
                 const vec3 d = apart(list, r);
                 const double ri = grains.pebbles[at(pr.i)].radius, rj = grains.pebbles[at(pr.j)].radius,
                              distance = norm(d);
-                if (list.is_asleep(r) || distance >= ri + rj) continue;
+                if (distance >= ri + rj) continue;
                 const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
                 const vec3 n = d / distance;
                 const pebble_motion& p = grains.pebbles[at(one.pebble)];
@@ -1457,8 +1465,9 @@ template <triaxial_policies P> class engine {
 
     // ---- state ----------------------------------------------------------------------------------------------------
 
-    contact_list<history> slow_; ///< clump against clump
-    contact_list<history> fast_; ///< at least one ball
+    contact_list<history> slow_;      ///< clump against clump
+    contact_list<history> fast_;      ///< at least one ball
+    std::vector<pebble_pair> asleep_; ///< pairs of balls that an intact bond carries, in the order of the lists
     std::vector<wall_row> slow_wall_, fast_wall_;
     incidence slow_of_, fast_of_;
     std::vector<typename specimen_type::reference> reference_; ///< per swept body: where it was at the last rebuild

@@ -189,27 +189,23 @@ template <class Law, class Pebble, class Adjust>
     adjust(s, begin);
     if constexpr (contact_list<typename Law::history>::remembers) {
         auto* own = list.history.data() + begin;
-        if (s.size == s.lanes() && list.bonded.empty()) {
+        if (s.size == s.lanes()) {
             evaluate(s, own, law, h);
             return;
         }
         for (std::size_t k = 0; k < s.lanes(); ++k) s.past[k] = own[std::min(k, s.size - 1)];
         evaluate(s, s.past, law, h);
-        for (std::size_t k = 0; k < s.size; ++k)
-            if (!list.is_asleep(begin + k)) own[k] = s.past[k];
+        for (std::size_t k = 0; k < s.size; ++k) own[k] = s.past[k];
     } else {
         evaluate(s, s.past, law, h);
     }
 }
 
-/// Writes the rows of contacts begin, begin + 1, ... of a list from the strip that holds their results. Contacts asleep
-/// behind a bond keep the empty row that they got when they fell asleep.
+/// Writes the rows of contacts begin, begin + 1, ... of a list from the strip that holds their results.
 template <class Law, class Pebble>
 void keep_rows(const strip<Law, Pebble>& s, contact_list<typename Law::history>& list, std::size_t begin) {
     for (std::size_t k = 0; k < s.size; ++k)
-        if (!list.is_asleep(begin + k))
-            list.rows[begin + k] = {
-                {s.fx[k], s.fy[k], s.fz[k]}, s.depth[k], {s.nx[k], s.ny[k], s.nz[k]}, s.dissipated[k]};
+        list.rows[begin + k] = {{s.fx[k], s.fy[k], s.fz[k]}, s.depth[k], {s.nx[k], s.ny[k], s.nz[k]}, s.dissipated[k]};
 }
 
 /// f(k, load) for every contact k of a strip, in order.
