@@ -46,14 +46,6 @@ inline double heap_in_use() {
 #endif
 }
 
-/// All steps at once, where an engine has a cheaper way for many.
-template <class Engine> void advance(Engine& e, std::int64_t count) {
-    if constexpr (requires { e.step(count); })
-        e.step(count);
-    else
-        for (std::int64_t k = 0; k < count; ++k) e.step();
-}
-
 struct request {
     double stress = 2e6;  ///< to which the packing is compressed (Pa)
     double skin = 5e-4;   ///< m
@@ -97,7 +89,7 @@ clast::engine<P> compressed(typename P::specimen grains, int side, double gap, A
     e.set_friction(0.0);
     for (auto& axis : e.boundary.axes) axis.target = calm.stress, axis.max_rate = fast;
     for (int rounds = 0; rounds < 100; ++rounds) {
-        advance(e, 200);
+        e.step(200);
         const clast::vec3 off = e.boundary.stress() / calm.stress - clast::vec3{1.0, 1.0, 1.0};
         if (rounds > 10 && clast::norm(off) < 0.02) break;
     }
@@ -150,7 +142,7 @@ template <class P> clast::engine<P> repeated(const clast::engine<P>& base, int c
         }
     }
     clast::engine<P> e = make_engine<P>(std::move(grains), static_cast<double>(copies) * edges, shear, wanted);
-    advance(e, 20);
+    e.step(20);
     return e;
 }
 

@@ -33,7 +33,7 @@ void measure(benchmark::State& state, const clast::engine<P>& base, std::int64_t
     }
     clast::engine<P>& e = *kept;
     const std::int64_t before = e.totals().rebuilds;
-    for (auto _ : state) kernels::advance(e, batch);
+    for (auto _ : state) e.step(batch);
     const double bodies = static_cast<double>(e.grains.body_count());
     state.SetItemsProcessed(batch * state.iterations() * static_cast<std::int64_t>(bodies));
     state.counters["n"] = bodies;

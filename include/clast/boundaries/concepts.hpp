@@ -77,12 +77,14 @@ concept saved = std::copyable<B> && requires(B& b, detail::any_archive& a) {
     b.archive(a);
 };
 
-/// A periodic cell around the origin: edge lengths (m) and their rates (m/s). Every `look` steps it is told the stress.
+/// A periodic cell around the origin: edge lengths (m) and their rates (m/s). Every `look` steps it is told the stress,
+/// if it has a servo that follows it.
 template <class B>
 concept periodic = requires(B& b, const B& seen, vec3 stress, vec3 modulus, double dt) {
     { seen.edges() } -> std::convertible_to<vec3>;
     { seen.edge_speeds() } -> std::convertible_to<vec3>;
     { B::look } -> std::convertible_to<int>;
+    { seen.has_servo() } -> std::same_as<bool>;
     b.observe(stress, modulus, dt);
 };
 

@@ -44,8 +44,13 @@ class periodic_cell {
 
     const vec3& edges() const { return edges_; }                                                   ///< m
     vec3 edge_speeds() const { return scale({axes[0].rate, axes[1].rate, axes[2].rate}, edges_); } ///< m/s
-    /// Stress at the last look (Pa, compression positive), for servo axes.
+    /// Stress at the last look (Pa, compression positive): at most `look` steps ago, or that of the last of many steps
+    /// made at once.
     const vec3& stress() const { return stress_; }
+    /// Whether an axis follows a stress.
+    bool has_servo() const {
+        return std::any_of(axes.begin(), axes.end(), [](const axis& a) { return !std::isnan(a.target); });
+    }
 
     // --- what an engine asks of any boundary: there is no facet ------------------------------------------------------
     bool near(const vec3&, double) const { return false; }

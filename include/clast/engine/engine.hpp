@@ -166,8 +166,9 @@ template <triaxial_policies P> class engine {
     /// Advances by `count` steps of dt(), which costs less than as many calls: rows (each_contact) are those of the
     /// last step only. Throws run_error if a number stops being finite or a grain leaves the boundary.
     void step(std::int64_t count = 1) {
-        for (; count > 1; --count) one_step(false);
-        if (count == 1) one_step(true);
+        const bool many = count > 1;
+        for (; count > 1; --count) one_step(false, false);
+        if (count == 1) one_step(true, many);
     }
 
     double dt() const { return dt_; }
@@ -349,7 +350,8 @@ template <triaxial_policies P> class engine {
 
     // ---- one step -------------------------------------------------------------------------------------------------
 
-    void one_step(bool keep_rows) {
+    /// keep_rows: for those who look after the step; last_of_many: what is looked at now and then only was left out.
+    void one_step(bool keep_rows, bool last_of_many) {
         if (must_rebuild_) rebuild();
         if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
         if constexpr (breakable)
@@ -357,7 +359,8 @@ template <triaxial_policies P> class engine {
         settings.run.for_each(slow_wall_.size(), [&](std::size_t k) { evaluate_wall(slow_wall_[k], dt_, 0.0); });
         control();
         bool observe = false;
-        if constexpr (periodic) observe = totals_.steps % boundary_type::look == 0;
+        if constexpr (periodic)
+            observe = last_of_many || (totals_.steps % boundary_type::look == 0 && (keep_rows || boundary.has_servo()));
         if constexpr (breakable && has_criterion)
             look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
         const double moved = sweep(keep_rows || observe || look_);
