@@ -32,4 +32,7 @@ if(CLAST_NATIVE)
 endif()
 if(CLAST_PORTABLE_BITS)
     target_compile_options(clast_fast INTERFACE "$<BUILD_INTERFACE:$<${gnu_like}:-ffp-contract=off>>")
+    # GCC 12 fuses all the same where it packs straight code into vectors: vfmaddsub in products of quaternions
+    target_compile_options(clast_fast
+                           INTERFACE "$<BUILD_INTERFACE:$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>>")
 endif()
