@@ -39,8 +39,8 @@ template <class Law> struct chain {
 
 template <class Law> void in_cache(benchmark::State& state, Law law) {
     chain<Law> c(128);
-    strip<Law, pebble_motion> s;
-    gather(s, std::span<const pebble_pair>(c.list.pairs).first(s.length), c.pebbles.data());
+    strip<Law, sphere_view> s;
+    gather(s, std::span<const pebble_pair>(c.list.pairs).first(s.length), sphere_view{c.pebbles.data()});
     for (auto& past : s.past) past = {};
     for (auto _ : state) {
         evaluate(s, s.past, law, 1e-6);
@@ -51,11 +51,11 @@ template <class Law> void in_cache(benchmark::State& state, Law law) {
 
 template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
-    strip<Law, pebble_motion> s;
+    strip<Law, sphere_view> s;
     std::vector<body_load> load(c.pebbles.size());
     for (auto _ : state) {
         for (std::size_t at = 0; at < c.list.size(); at += s.length) {
-            evaluate(s, c.list, at, std::min(at + s.length, c.list.size()), c.pebbles.data(), law, 1e-6,
+            evaluate(s, c.list, at, std::min(at + s.length, c.list.size()), sphere_view{c.pebbles.data()}, law, 1e-6,
                      [](auto&, std::size_t) {});
             each_load(s, [&](std::size_t k, const contact_load& one) {
                 one.add_to_i(load[static_cast<std::size_t>(c.list.pairs[at + k].i)]);

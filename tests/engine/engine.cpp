@@ -185,7 +185,7 @@ TEST_CASE("every overlap at the time of a step, of pebbles or with a facet, has 
     for (int k = 0; k < 400; ++k) {
         e.place_all();
         std::vector<vec3> x;
-        for (const pebble_motion& p : e.grains.pebbles) x.push_back(p.x);
+        for (const auto& p : e.grains.pebbles) x.push_back(p.x);
         const auto boundary = e.boundary;
         e.step();
         for (std::size_t i = 0; i < x.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clast/engine/kernel.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -47,13 +48,14 @@ struct scene {
     }
 };
 
-using work_strip = strip<linear, pebble_motion>;
+using work_strip = strip<linear, sphere_view>;
 
 /// Contacts [begin, end) of a scene by strips, rows kept.
 template <class Adjust> void evaluate_all(scene& s, std::size_t begin, std::size_t end, Adjust&& adjust) {
     work_strip work;
     for (std::size_t at = begin; at < end; at += work_strip::length) {
-        evaluate(work, s.list, at, std::min(end, at + work_strip::length), s.pebbles.data(), s.law, 1e-5, adjust);
+        evaluate(work, s.list, at, std::min(end, at + work_strip::length), sphere_view{s.pebbles.data()}, s.law, 1e-5,
+                 adjust);
         keep_rows(work, s.list, at);
     }
 }
@@ -138,26 +140,36 @@ TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
 
 TEST_CASE("loads of both bodies are the row's force and its moments about their centres") {
     scene s(70); // a whole strip and a part of one
-    std::vector<clump_pebble> clumps;
-    std::vector<vec3> centre;
+    // every pebble belongs to a body whose centre is elsewhere, and moves with it
+    std::vector<clump_pebble> pebbles;
+    std::vector<body_motion> bodies;
+    std::vector<std::int32_t> owner;
     for (std::size_t p = 0; p < s.pebbles.size(); ++p) {
         const double u = static_cast<double>(p);
         const vec3 arm{0.01 * std::sin(u), 0.02 * std::cos(3.0 * u), -0.01 * std::sin(2.0 * u)};
-        clumps.push_back({s.pebbles[p], arm});
-        centre.push_back(s.pebbles[p].x - arm);
+        const pebble_motion& one = s.pebbles[p];
+        pebbles.push_back({one.x, one.radius});
+        bodies.emplace_back(one.x - arm, one.v - cross(one.w, arm), one.w);
+        owner.push_back(static_cast<std::int32_t>(s.pebbles.size() - 1 - p));
     }
-    strip<linear, clump_pebble> work;
+    std::reverse(bodies.begin(), bodies.end());
+    const clump_view clumps{pebbles.data(), owner.data(), bodies.data()};
+    const auto centre = [&](std::size_t p) { return bodies[static_cast<std::size_t>(owner[p])].x; };
+    scene alone = s; // the same contacts of pebbles that are bodies themselves
+    evaluate_all(alone, 0, 70);
+    strip<linear, clump_view> work;
     std::size_t touching = 0, booked = 0;
     for (std::size_t begin = 0; begin < 70; begin += 64) {
         const std::size_t end = std::min<std::size_t>(70, begin + 64);
-        evaluate(work, s.list, begin, end, clumps.data(), s.law, 1e-5, [](auto&, std::size_t) {});
+        evaluate(work, s.list, begin, end, clumps, s.law, 1e-5, [](auto&, std::size_t) {});
         keep_rows(work, s.list, begin);
         std::size_t next = 0;
         each_load(work, [&](std::size_t k, const contact_load& load) {
             CHECK(k == next++);
             const force_row& row = s.list.rows[begin + k];
+            CHECK(norm(row.force - alone.list.rows[begin + k].force) <= 1e-9 * norm(row.force));
             const std::size_t i = 2 * (begin + k), j = i + 1;
-            const vec3 at = clumps[i].x + (clumps[i].radius - 0.5 * row.depth) * row.normal;
+            const vec3 at = pebbles[i].x + (pebbles[i].radius - 0.5 * row.depth) * row.normal;
             body_load a, b;
             load.add_to_i(a), load.add_to_j(b);
             const auto is = [](const quad& v, const vec3& w) {
@@ -165,9 +177,9 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
             };
             CHECK(is(a.force, row.force));
             CHECK(is(b.force, -row.force));
-            CHECK(norm(vec3{a.moment[0], a.moment[1], a.moment[2]} - cross(at - centre[i], row.force)) <=
+            CHECK(norm(vec3{a.moment[0], a.moment[1], a.moment[2]} - cross(at - centre(i), row.force)) <=
                   1e-12 * norm(row.force));
-            CHECK(norm(vec3{b.moment[0], b.moment[1], b.moment[2]} + cross(at - centre[j], row.force)) <=
+            CHECK(norm(vec3{b.moment[0], b.moment[1], b.moment[2]} + cross(at - centre(j), row.force)) <=
                   1e-12 * norm(row.force));
             CHECK(a.moment[3] == row.dissipated);
             CHECK(b.moment[3] == 0.0);

@@ -49,7 +49,7 @@ inline boundaries::cylinder_settings cylinder(double radius, double height, doub
 /// by `squeeze` (m).
 inline boundaries::cylinder_settings cylinder_around(const specimen& sp, double squeeze = 0.0) {
     double low = 0.0, high = 0.0;
-    for (const pebble_motion& p : sp.pebbles) {
+    for (const auto& p : sp.pebbles) {
         low = std::min(low, p.x.z - p.radius);
         high = std::max(high, p.x.z + p.radius);
     }

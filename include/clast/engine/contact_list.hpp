@@ -25,12 +25,38 @@ struct alignas(32) pebble_motion {
     double inverse_inertia = 0.0; ///< of the pebble as a ball (1/(kg m^2))
 };
 
-/// A pebble of a body whose centre is elsewhere: two lines of a cache.
-struct alignas(64) clump_pebble : pebble_motion {
-    vec3 arm; ///< from the centre of its clump to its own (m); 0 for a ball
-    double spare = 0.0;
+/// A pebble of a body whose centre is elsewhere: that body's motion says how it moves.
+struct alignas(32) clump_pebble {
+    vec3 x;              ///< centre (m)
+    double radius = 0.0; ///< m
 };
-static_assert(sizeof(pebble_motion) == 12 * sizeof(double) && sizeof(clump_pebble) == 16 * sizeof(double));
+static_assert(sizeof(pebble_motion) == 12 * sizeof(double) && sizeof(clump_pebble) == 4 * sizeof(double));
+
+/// Motion of a body (clump or ball): centre at t_n, velocities over the step that led to t_n. In blocks of four
+/// numbers, as contacts read them.
+struct alignas(32) body_motion {
+    vec3 x; ///< mass centre (m)
+    double spare_x = 0.0;
+    vec3 v; ///< m/s
+    double spare_v = 0.0;
+    vec3 w; ///< rad/s, world axes
+    double spare_w = 0.0;
+
+    body_motion() = default;
+    body_motion(const vec3& centre, const vec3& velocity, const vec3& spin) : x(centre), v(velocity), w(spin) {}
+};
+static_assert(sizeof(body_motion) == 12 * sizeof(double));
+
+/// Spheres as contacts read them: each is a body of its own.
+struct sphere_view {
+    const pebble_motion* pebbles;
+};
+/// Pebbles of clumps as contacts read them.
+struct clump_view {
+    const clump_pebble* pebbles;
+    const std::int32_t* owner; ///< per pebble: its body
+    const body_motion* bodies;
+};
 
 /// What one contact exerts in this step; bodies sum their rows in a fixed order. The force acts in the middle of the
 /// overlap: at x_i + (r_i - depth / 2) normal, which is x_j - (r_j - depth / 2) normal.

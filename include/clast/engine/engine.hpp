@@ -241,8 +241,8 @@ template <triaxial_policies P> class engine {
     /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
     /// faces of a periodic cell, too.
     vec3 branch_of(const force_row& row, const pebble_pair& pair) const {
-        const pebble_motion& i = grains.pebbles[at(pair.i)];
-        const pebble_motion& j = grains.pebbles[at(pair.j)];
+        const auto& i = grains.pebbles[at(pair.i)];
+        const auto& j = grains.pebbles[at(pair.j)];
         const vec3 between = (i.radius + j.radius - row.depth) * row.normal;
         if constexpr (specimen_type::turns) return i.x - centre_of(pair.i) + between + centre_of(pair.j) - j.x;
         return between;
@@ -323,8 +323,7 @@ template <triaxial_policies P> class engine {
     }
 
   private:
-    using pebble_type = typename decltype(specimen_type::pebbles)::value_type;
-    using strip_type = strip<contact, pebble_type>;
+    using strip_type = strip<contact, decltype(std::declval<const specimen_type&>().view())>;
 
     /// f(k) for the slow contacts in the order that one thread gives them.
     template <class F> void each_slow(F&& f) const {
@@ -389,13 +388,19 @@ template <triaxial_policies P> class engine {
             for (std::size_t k = 0; k < s.size; ++k) {
                 const pebble_pair& p = fast_.pairs[begin + k];
                 vec3 by;
-                if (owned_by_clump(p.i)) by -= ahead * grains.pebbles[at(p.i)].v;
-                if (owned_by_clump(p.j)) by += ahead * grains.pebbles[at(p.j)].v;
+                if (owned_by_clump(p.i))
+                    by -= ahead * grains.velocity_of(p.i);
+                else // a ball is placed elsewhere than its motion, which trails it
+                    s.aix[k] = s.aiy[k] = s.aiz[k] = 0.0;
+                if (owned_by_clump(p.j))
+                    by += ahead * grains.velocity_of(p.j);
+                else
+                    s.ajx[k] = s.ajy[k] = s.ajz[k] = 0.0;
                 s.dx[k] += by.x, s.dy[k] += by.y, s.dz[k] += by.z;
             }
         };
         each_strip(fast_.size(), [&](std::size_t begin, std::size_t end, strip_type& s) {
-            evaluate(s, fast_, begin, end, grains.pebbles.data(), settings.grain_contact, h, place);
+            evaluate(s, fast_, begin, end, grains.view(), settings.grain_contact, h, place);
             keep_rows(s, fast_, begin);
         });
         settings.run.for_each(fast_wall_.size(), [&](std::size_t k) { evaluate_wall(fast_wall_[k], h, ahead); });
@@ -418,7 +423,7 @@ template <triaxial_policies P> class engine {
             const auto each_across = [&](auto&& f) {
                 for (std::size_t a = first; a < across_.size() && across_[a] < end; ++a) f(a, across_[a] - begin);
             };
-            evaluate(s, slow_, begin, end, grains.pebbles.data(), settings.grain_contact, dt_,
+            evaluate(s, slow_, begin, end, grains.view(), settings.grain_contact, dt_,
                      [&](strip_type& filled, std::size_t) {
                          each_across([&](std::size_t, std::size_t k) {
                              const std::uint8_t image = slow_.image[begin + k];
@@ -429,8 +434,7 @@ template <triaxial_policies P> class engine {
                      });
             each_across([&](std::size_t a, std::size_t k) { across_force_[a] = {s.fx[k], s.fy[k], s.fz[k]}; });
         } else {
-            evaluate(s, slow_, begin, end, grains.pebbles.data(), settings.grain_contact, dt_,
-                     [](strip_type&, std::size_t) {});
+            evaluate(s, slow_, begin, end, grains.view(), settings.grain_contact, dt_, [](strip_type&, std::size_t) {});
         }
         if (keep) keep_rows(s, slow_, begin);
     }
@@ -462,7 +466,7 @@ template <triaxial_policies P> class engine {
                         none, h)
                         .fz;
         };
-        const vec3& v = grains.pebbles[at(w.pebble)].v;
+        const vec3 v = grains.velocity_of(w.pebble);
         const auto closing = [&](const boundaries::touch& t) {
             return t.along * boundary.velocity(t.facet) - dot(v, t.normal);
         };
@@ -519,11 +523,11 @@ template <triaxial_policies P> class engine {
         load_sum s;
         const std::size_t contacts = list.size();
         for (const incidence::entry& one : of.of(body)) {
-            const pebble_motion& p = grains.pebbles[at(one.pebble)];
+            const auto& p = grains.pebbles[at(one.pebble)];
             vec3 arm;
             if constexpr (specimen_type::turns) {
                 arm = p.x - centre;
-                if (ahead != 0.0) arm += ahead * p.v;
+                if (ahead != 0.0) arm += ahead * grains.velocity_of(one.pebble);
             }
             if (one.row() < contacts) {
                 const force_row& row = list.rows[one.row()];
@@ -618,7 +622,8 @@ template <triaxial_policies P> class engine {
         for (; wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == g; ++wall) {
             const wall_row& w = slow_wall_[wall];
             load.force += w.force;
-            if constexpr (specimen_type::turns) load.moment += cross(grains.pebbles[at(w.pebble)].arm, w.force);
+            if constexpr (specimen_type::turns)
+                load.moment += cross(grains.pebbles[at(w.pebble)].x - grains.centre(g), w.force);
         }
         if constexpr (breakable) {
             if (broken_.halo[g] != 0) {
@@ -680,10 +685,7 @@ template <triaxial_policies P> class engine {
         if constexpr (breakable)
             settings.run.for_each(broken_.balls.size(), [&](std::size_t k) {
                 const body_motion& m = grains.motion[ball(broken_.balls[k])];
-                pebble_motion& p = grains.pebbles[at(broken_.balls[k])];
-                p.x = m.x + later * m.v;
-                p.v = m.v;
-                p.w = m.w;
+                grains.pebbles[at(broken_.balls[k])].x = m.x + later * m.v;
             });
     }
     void place_balls() { place_balls(broken_.lag); }
@@ -843,7 +845,7 @@ template <triaxial_policies P> class engine {
                 if (one.row() < list.size()) {
                     const force_row& row = list.rows[one.row()];
                     if (row.depth == 0.0) continue;
-                    const pebble_motion& p = grains.pebbles[at(one.pebble)];
+                    const auto& p = grains.pebbles[at(one.pebble)];
                     const double side = one.side();
                     const pebble_pair& pair = list.pairs[one.row()];
                     f(one.pebble, grains.owner[at(one.is_second() ? pair.i : pair.j)], side * row.force,
@@ -1400,7 +1402,7 @@ template <triaxial_policies P> class engine {
                 if (distance >= ri + rj) continue;
                 const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
                 const vec3 n = d / distance;
-                const pebble_motion& p = grains.pebbles[at(one.pebble)];
+                const auto& p = grains.pebbles[at(one.pebble)];
                 k.add(n, settings.grain_contact.normal_stiffness(o), settings.grain_contact.shear_stiffness(o),
                       p.x - centre + (one.side() * (p.radius - 0.5 * o.depth)) * n);
             } else {

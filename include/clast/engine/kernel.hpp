@@ -25,11 +25,11 @@
 
 namespace clast {
 
-/// Operands and results of up to 64 contacts. `Pebble`: pebble_motion, or clump_pebble where bodies have their centre
+/// Operands and results of up to 64 contacts. `View`: sphere_view, or clump_view where bodies have their centre
 /// elsewhere.
-template <contacts::contact_law Law, class Pebble> struct strip {
+template <contacts::contact_law Law, class View> struct strip {
     static constexpr std::size_t length = 64;
-    static constexpr bool has_arms = std::is_same_v<Pebble, clump_pebble>;
+    static constexpr bool has_arms = std::is_same_v<View, clump_view>;
     using law_type = Law;
     using history_type = typename Law::history;
     using row = double[length];
@@ -37,7 +37,7 @@ template <contacts::contact_law Law, class Pebble> struct strip {
 
     std::size_t size = 0;             ///< contacts in it
     alignas(64) row dx, dy, dz;       ///< x_j - x_i (m)
-    row vx, vy, vz;                   ///< v_j - v_i of the centres (m/s)
+    row vx, vy, vz;                   ///< v_j - v_i of the centres of the bodies (m/s)
     row ix, iy, iz, jx, jy, jz;       ///< w_i and w_j (rad/s)
     row radius_i, radius_j;           ///< m
     arm_row aix, aiy, aiz;            ///< from the centre of the body to x_i (m)
@@ -71,37 +71,42 @@ struct alignas(32) contact_load {
 };
 
 /// Fills a strip from the pebbles of `pairs` (1 to 64). Unused lanes repeat the last contact.
-template <class Law, class Pebble>
-[[gnu::always_inline]] inline void gather(strip<Law, Pebble>& s, std::span<const pebble_pair> pairs,
-                                          const Pebble* pebbles) {
+template <class Law, class View>
+[[gnu::always_inline]] inline void gather(strip<Law, View>& s, std::span<const pebble_pair> pairs, const View& from) {
+    using columns = pack_columns<pack_size>;
+    using records = typename columns::records;
     s.size = pairs.size();
     const std::size_t n = s.lanes();
+    const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
     for (std::size_t k = 0; k < n; k += pack_size) {
-        using columns = pack_columns<pack_size>;
-        typename columns::records a, b;
-        for (std::size_t l = 0; l < pack_size; ++l) {
-            const pebble_pair& p = pairs[std::min(k + l, s.size - 1)];
-            a[l] = reinterpret_cast<const std::byte*>(pebbles + p.i);
-            b[l] = reinterpret_cast<const std::byte*>(pebbles + p.j);
-        }
-        using m = pebble_motion;
-        const auto difference = [&](std::size_t at, double* x, double* y, double* z) {
+        const auto difference = [&](const records& a, const records& b, std::size_t at, double* x, double* y,
+                                    double* z) {
             const columns xy = columns(b, at) - columns(a, at), zw = columns(b, at + 16) - columns(a, at + 16);
             xy.first(x + k), xy.second(y + k), zw.first(z + k);
         };
-        const auto copy = [&](const typename columns::records& from, std::size_t at, double* x, double* y, double* z) {
-            const columns xy(from, at), zw(from, at + 16);
+        const auto copy = [&](const records& a, std::size_t at, double* x, double* y, double* z) {
+            const columns xy(a, at), zw(a, at + 16);
             xy.first(x + k), xy.second(y + k), zw.first(z + k);
         };
-        difference(offsetof(m, x), s.dx, s.dy, s.dz);
-        columns(a, offsetof(m, x) + 16).second(s.radius_i + k);
-        columns(b, offsetof(m, x) + 16).second(s.radius_j + k);
-        difference(offsetof(m, v), s.vx, s.vy, s.vz);
-        copy(a, offsetof(m, w), s.ix, s.iy, s.iz);
-        copy(b, offsetof(m, w), s.jx, s.jy, s.jz);
-        if constexpr (strip<Law, Pebble>::has_arms) {
-            copy(a, sizeof(m), s.aix, s.aiy, s.aiz);
-            copy(b, sizeof(m), s.ajx, s.ajy, s.ajz);
+        constexpr std::size_t centre = 0, velocity = 32, spin = 64; // bytes, in pebble_motion and in body_motion
+        records pi, pj, bi, bj;
+        for (std::size_t l = 0; l < pack_size; ++l) {
+            const pebble_pair& p = pairs[std::min(k + l, s.size - 1)];
+            pi[l] = bytes(from.pebbles[p.i]), pj[l] = bytes(from.pebbles[p.j]);
+            if constexpr (strip<Law, View>::has_arms)
+                bi[l] = bytes(from.bodies[from.owner[p.i]]), bj[l] = bytes(from.bodies[from.owner[p.j]]);
+            else
+                bi[l] = pi[l], bj[l] = pj[l];
+        }
+        difference(pi, pj, centre, s.dx, s.dy, s.dz);
+        columns(pi, centre + 16).second(s.radius_i + k);
+        columns(pj, centre + 16).second(s.radius_j + k);
+        difference(bi, bj, velocity, s.vx, s.vy, s.vz);
+        copy(bi, spin, s.ix, s.iy, s.iz);
+        copy(bj, spin, s.jx, s.jy, s.jz);
+        if constexpr (strip<Law, View>::has_arms) {
+            difference(bi, pi, centre, s.aix, s.aiy, s.aiz);
+            difference(bj, pj, centre, s.ajx, s.ajy, s.ajz);
         }
     }
 }
@@ -109,12 +114,16 @@ template <class Law, class Pebble>
 namespace detail {
 /// Lane k of a strip. A function of its own: what a loop body declares itself, `omp simd` copies into arrays, and GCC
 /// then gives up.
-template <class Law, class Pebble>
-[[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, Pebble>& s, typename Law::history* history,
+template <class Law, class View>
+[[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, View>& s, typename Law::history* history,
                                                         std::size_t k, const Law& law, double h) {
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]};
-    const vec3 centres{s.vx[k], s.vy[k], s.vz[k]};
+    vec3 centres{s.vx[k], s.vy[k], s.vz[k]}; // of the pebbles, relative velocity
     const vec3 spin_i{s.ix[k], s.iy[k], s.iz[k]}, spin_j{s.jx[k], s.jy[k], s.jz[k]};
+    if constexpr (strip<Law, View>::has_arms) {
+        centres += cross(spin_j, vec3{s.ajx[k], s.ajy[k], s.ajz[k]});
+        centres -= cross(spin_i, vec3{s.aix[k], s.aiy[k], s.aiz[k]});
+    }
     const vec3 mid = d - (0.5 * h) * centres;
     const double distance = std::sqrt(norm2(d)), mid2 = norm2(mid);
     const double inverse = 1.0 / distance, reflect = 2.0 / mid2;
@@ -133,7 +142,7 @@ template <class Law, class Pebble>
     const vec3 force{touching ? answer.fx : 0.0, touching ? answer.fy : 0.0, touching ? answer.fz : 0.0};
     const vec3 turn = cross(normal, force);
     vec3 moment_i = reach_i * turn, moment_j = reach_j * turn;
-    if constexpr (strip<Law, Pebble>::has_arms) {
+    if constexpr (strip<Law, View>::has_arms) {
         moment_i += cross(vec3{s.aix[k], s.aiy[k], s.aiz[k]}, force);
         moment_j -= cross(vec3{s.ajx[k], s.ajy[k], s.ajz[k]}, force);
     }
@@ -147,8 +156,8 @@ template <class Law, class Pebble>
 } // namespace detail
 
 namespace detail {
-template <class Law, class Pebble>
-[[gnu::always_inline]] inline void answer_all(strip<Law, Pebble>& s, typename Law::history* history, const Law& law,
+template <class Law, class View>
+[[gnu::always_inline]] inline void answer_all(strip<Law, View>& s, typename Law::history* history, const Law& law,
                                               double h) {
     const std::size_t n = s.lanes();
 #if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD) // the latter comes with clast::fast and its -fopenmp-simd
@@ -157,8 +166,8 @@ template <class Law, class Pebble>
     for (std::size_t k = 0; k < n; ++k) detail::answer(s, history, k, law, h);
 }
 #if defined(CLAST_WIDER_AT_RUN_TIME)
-template <class Law, class Pebble>
-[[gnu::noinline, gnu::target("avx2")]] void answer_all_wide(strip<Law, Pebble>& s, typename Law::history* history,
+template <class Law, class View>
+[[gnu::noinline, gnu::target("avx2")]] void answer_all_wide(strip<Law, View>& s, typename Law::history* history,
                                                             const Law law, double h) {
     answer_all(s, history, law, h);
 }
@@ -171,8 +180,8 @@ template <class Law, class Pebble>
 ///
 /// The motion of i against j at the contact point over the last step is split by the normal of mid-step, so that
 /// position and velocity belong to the same instant.
-template <class Law, class Pebble>
-[[gnu::noinline]] void evaluate(strip<Law, Pebble>& s, typename Law::history* history, const Law law, double h) {
+template <class Law, class View>
+[[gnu::noinline]] void evaluate(strip<Law, View>& s, typename Law::history* history, const Law law, double h) {
 #if defined(CLAST_WIDER_AT_RUN_TIME)
     if (__builtin_cpu_supports("avx2")) return detail::answer_all_wide(s, history, law, h);
 #endif
@@ -181,11 +190,11 @@ template <class Law, class Pebble>
 
 /// Evaluates contacts [begin, end) of a list, at most a strip; histories go on in the list, results stay in the strip.
 /// adjust(s, begin): may change the operands (pebbles that are taken elsewhere in time, images in a periodic cell).
-template <class Law, class Pebble, class Adjust>
-[[gnu::always_inline]] inline void evaluate(strip<Law, Pebble>& s, contact_list<typename Law::history>& list,
-                                            std::size_t begin, std::size_t end, const Pebble* pebbles, const Law& law,
+template <class Law, class View, class Adjust>
+[[gnu::always_inline]] inline void evaluate(strip<Law, View>& s, contact_list<typename Law::history>& list,
+                                            std::size_t begin, std::size_t end, const View& from, const Law& law,
                                             double h, Adjust&& adjust) {
-    gather(s, std::span<const pebble_pair>(list.pairs).subspan(begin, end - begin), pebbles);
+    gather(s, std::span<const pebble_pair>(list.pairs).subspan(begin, end - begin), from);
     adjust(s, begin);
     if constexpr (contact_list<typename Law::history>::remembers) {
         auto* own = list.history.data() + begin;
@@ -202,17 +211,17 @@ template <class Law, class Pebble, class Adjust>
 }
 
 /// Writes the rows of contacts begin, begin + 1, ... of a list from the strip that holds their results.
-template <class Law, class Pebble>
-void keep_rows(const strip<Law, Pebble>& s, contact_list<typename Law::history>& list, std::size_t begin) {
+template <class Law, class View>
+void keep_rows(const strip<Law, View>& s, contact_list<typename Law::history>& list, std::size_t begin) {
     for (std::size_t k = 0; k < s.size; ++k)
         list.rows[begin + k] = {{s.fx[k], s.fy[k], s.fz[k]}, s.depth[k], {s.nx[k], s.ny[k], s.nz[k]}, s.dissipated[k]};
 }
 
 /// f(k, load) for every contact k of a strip, in order.
-template <class Law, class Pebble, class F>
-[[gnu::always_inline]] inline void each_load(const strip<Law, Pebble>& s, F&& f) {
+template <class Law, class View, class F>
+[[gnu::always_inline]] inline void each_load(const strip<Law, View>& s, F&& f) {
     alignas(64) contact_load load[4];
-    alignas(64) static constexpr double nothing[strip<Law, Pebble>::length] = {};
+    alignas(64) static constexpr double nothing[strip<Law, View>::length] = {};
     for (std::size_t k = 0; k < s.size; k += 4) {
         transpose(s.fx + k, s.fy + k, s.fz + k, nothing, [&](std::size_t l, const quad& v) { load[l].force = v; });
         transpose(s.tix + k, s.tiy + k, s.tiz + k, s.dissipated + k,

@@ -29,13 +29,6 @@ struct grain {
     std::int32_t cluster = -1; ///< number in the cluster pool of its shape once replaced; -1 while it is a clump
 };
 
-/// Motion of a body (clump or ball): centre at t_n, velocities over the step that led to t_n.
-struct body_motion {
-    vec3 x; ///< mass centre (m)
-    vec3 v; ///< m/s
-    vec3 w; ///< rad/s, world axes
-};
-
 /// Orientation and angular momentum of a clump (world axes).
 struct clump_rotation {
     quaternion q;
@@ -111,7 +104,7 @@ struct specimen {
     /// Total pebble volume (m^3): invariant under replacement.
     double solid_volume() const {
         double v = 0.0;
-        for (const pebble_motion& p : pebbles) v += sphere_volume(p.radius);
+        for (const clump_pebble& p : pebbles) v += sphere_volume(p.radius);
         return v;
     }
 
@@ -126,14 +119,7 @@ struct specimen {
         }
         grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
         for (const shape_pebble& p : s.pebbles) {
-            const vec3 arm = rotate(q, p.offset);
-            pebbles.push_back({{centre + arm,
-                                p.radius,
-                                {},
-                                1.0 / (density * sphere_volume(p.radius)),
-                                {},
-                                1.0 / (density * sphere_inertia_per_density(p.radius))},
-                               arm});
+            pebbles.push_back({centre + rotate(q, p.offset), p.radius});
             mother.push_back(id);
             owner.push_back(id);
         }
@@ -157,6 +143,13 @@ struct specimen {
     bool is_swept(std::size_t g) const { return is_clump(g); }
     std::size_t body_of(std::int32_t pebble) const {
         return static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]);
+    }
+    clump_view view() const { return {pebbles.data(), owner.data(), motion.data()}; }
+    /// Of the centre of a pebble of a clump, or of a ball (m/s).
+    vec3 velocity_of(std::int32_t pebble) const {
+        const std::size_t b = body_of(pebble);
+        const body_motion& m = motion[b];
+        return b < grains.size() ? m.v + cross(m.w, pebbles[static_cast<std::size_t>(pebble)].x - m.x) : m.v;
     }
     /// Pebbles of one group stand together; contact lists are sorted by the group of the first pebble.
     std::size_t group_of(std::int32_t pebble) const {
@@ -228,37 +221,23 @@ struct specimen {
     }
 
   private:
-    /// Where the pebbles of a clump are, and how they move: x = X + R o, v = V + w x (R o), by columns of R and of w x
-    /// R.
+    /// Where the pebbles of a clump are: x = X + R o, by columns of R.
     class placement {
       public:
         placement(const body_motion& m, const mat3& turn, const shape& s, std::int32_t first)
-            : pebbles_(s.pebbles.data()), first_(first), x_(lane(m.x)), v_(lane(m.v)), w_(lane(m.w)) {
-            for (int a = 0; a < 3; ++a) {
-                const vec3 column{turn(0, a), turn(1, a), turn(2, a)};
-                turn_[a] = lane(column), swing_[a] = lane(cross(m.w, column));
-            }
+            : pebbles_(s.pebbles.data()), first_(first), x_(m.x.x, m.x.y, m.x.z, 0.0) {
+            for (int a = 0; a < 3; ++a) turn_[a] = quad(turn(0, a), turn(1, a), turn(2, a), 0.0);
         }
         void put(std::int32_t p, clump_pebble& to) const {
             const vec3& o = pebbles_[p - first_].offset;
-            const quad arm = o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2];
-            set(to, sizeof(pebble_motion), arm, 0.0);
-            set(to, offsetof(pebble_motion, x), x_ + arm, to.radius);
-            set(to, offsetof(pebble_motion, v), v_ + (o.x * swing_[0] + o.y * swing_[1] + o.z * swing_[2]),
-                to.inverse_mass);
-            set(to, offsetof(pebble_motion, w), w_, to.inverse_inertia);
+            const quad x = x_ + (o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2]);
+            x.with_fourth(to.radius).store(reinterpret_cast<std::byte*>(&to));
         }
 
       private:
-        static quad lane(const vec3& a) { return {a.x, a.y, a.z, 0.0}; }
-        /// A block of four numbers at once.
-        static void set(clump_pebble& to, std::size_t at, const quad& value, double fourth) {
-            value.with_fourth(fourth).store(reinterpret_cast<std::byte*>(&to) + at);
-        }
-
         const shape_pebble* pebbles_;
         std::int32_t first_;
-        quad x_, v_, w_, turn_[3], swing_[3];
+        quad x_, turn_[3];
     };
     void fill(clump_strip& s, std::size_t k, std::size_t g, const load_sum& load, const reference& since,
               const vec3& stretch) const {
@@ -316,6 +295,8 @@ struct sphere_specimen {
     static constexpr bool is_swept(std::size_t) { return true; }
     static constexpr std::size_t body_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
+    sphere_view view() const { return {pebbles.data()}; }
+    const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
@@ -382,6 +363,8 @@ concept specimen_type = std::movable<S> &&
     { c.is_swept(b) } -> std::same_as<bool>;
     { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;
+    { c.velocity_of(std::int32_t{}) } -> std::convertible_to<vec3>;
+    c.view();
     { c.centre(b) } -> std::convertible_to<vec3>;
     { c.bounding_radius(b) } -> std::same_as<double>;
     { c.pebbles_of(b) } -> std::same_as<index_range>;

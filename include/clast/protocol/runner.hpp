@@ -237,7 +237,7 @@ template <triaxial_policies P> class runner {
             reference_volume_ = sim.boundary.volume();
             sim.place_all();
             reference_.clear();
-            for (const pebble_motion& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
+            for (const auto& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
         }
         sim.breakage_on = s.breakage;
         sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
