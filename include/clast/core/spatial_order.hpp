@@ -24,7 +24,7 @@ inline std::vector<std::size_t> spatial_order(std::span<const vec3> points, doub
     for (const vec3& p : points)
         for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]);
     constexpr int bits = 21;
-    const auto cell = [&](double x) {
+    const auto cell_of = [&](double x) {
         return static_cast<std::uint64_t>(std::min(x / edge, std::ldexp(1.0, bits) - 1.0));
     };
     // every bit moves to three times its place
@@ -38,7 +38,7 @@ inline std::vector<std::size_t> spatial_order(std::span<const vec3> points, doub
     std::vector<std::uint64_t> code(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
         const vec3 c = points[k] - low;
-        code[k] = spread(cell(c.x)) | spread(cell(c.y)) << 1 | spread(cell(c.z)) << 2;
+        code[k] = spread(cell_of(c.x)) | spread(cell_of(c.y)) << 1 | spread(cell_of(c.z)) << 2;
     }
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
