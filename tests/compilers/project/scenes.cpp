@@ -105,14 +105,24 @@ struct spheres {
 
 /// What `compare` reads: vectors of one kind after the other.
 struct state {
-    std::vector<double> places, speeds, spins, forces; ///< of pebbles (m, m/s, rad/s), of contacts (N)
+    std::vector<double> places;        ///< of pebbles (m)
+    std::vector<double> speeds, spins; ///< of bodies (m/s, rad/s)
+    std::vector<double> forces;        ///< of contacts (N)
     template <class A> void archive(A& a) { a(places, speeds, spins, forces); }
 };
 template <class P> state state_of(engine<P>& e) {
     state s;
     e.place_all();
     const auto add = [](std::vector<double>& to, const vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); };
-    for (const pebble_motion& p : e.grains.pebbles) add(s.places, p.x), add(s.speeds, p.v), add(s.spins, p.w);
+    for (const auto& p : e.grains.pebbles) add(s.places, p.x);
+    const auto& bodies = [&]() -> const auto& {
+        if constexpr (P::specimen::turns)
+            return e.grains.motion;
+        else
+            return e.grains.pebbles;
+    }
+    ();
+    for (const auto& b : bodies) add(s.speeds, b.v), add(s.spins, b.w);
     e.each_contact([&](const force_row& r, const pebble_pair&) { add(s.forces, r.force); });
     return s;
 }
