@@ -28,7 +28,8 @@ struct shear_history {
 /// and the work of the mean shear force on the slip (trial - F) / k_s; `fn` (N, compression positive) is added along
 /// the normal.
 template <class T>
-response<T> tangential_spring(const overlap<T>& o, const motion<T>& m, shear_history& h, T fn, T ks, T limit) {
+[[gnu::always_inline]] inline response<T> tangential_spring(const overlap<T>& o, const motion<T>& m, shear_history& h,
+                                                            T fn, T ks, T limit) {
     using std::sqrt;
     // the turn must not do work
     T ax = h.x, ay = h.y, az = h.z;

@@ -97,15 +97,16 @@ namespace detail {
     for (std::size_t k = 0; k < n; ++k) finish_lane(s, k);
 }
 #if defined(CLAST_WIDER_AT_RUN_TIME)
-[[gnu::noinline, gnu::target("avx2")]] inline void advance_wide(clump_strip& s, double h, double damping) {
+[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] inline void advance_wide(clump_strip& s, double h,
+                                                                              double damping) {
     advance_lanes(s, h, damping);
 }
-[[gnu::noinline, gnu::target("avx2")]] inline void finish_wide(clump_strip& s) { finish_lanes(s); }
+[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] inline void finish_wide(clump_strip& s) { finish_lanes(s); }
 #endif
 } // namespace detail
 
 /// Moves the clumps of a strip by one step h (s) under their loads, with local damping of force and moment.
-[[gnu::noinline]] inline void advance(clump_strip& s, double h, double damping) {
+[[gnu::noinline, gnu::flatten]] inline void advance(clump_strip& s, double h, double damping) {
 #if defined(CLAST_WIDER_AT_RUN_TIME)
     const bool wide = __builtin_cpu_supports("avx2");
     wide ? detail::advance_wide(s, h, damping) : detail::advance_lanes(s, h, damping);

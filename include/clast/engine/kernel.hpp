@@ -167,8 +167,8 @@ template <class Law, class View>
 }
 #if defined(CLAST_WIDER_AT_RUN_TIME)
 template <class Law, class View>
-[[gnu::noinline, gnu::target("avx2")]] void answer_all_wide(strip<Law, View>& s, typename Law::history* history,
-                                                            const Law law, double h) {
+[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] void
+answer_all_wide(strip<Law, View>& s, typename Law::history* history, const Law law, double h) {
     answer_all(s, history, law, h);
 }
 #endif
@@ -181,7 +181,8 @@ template <class Law, class View>
 /// The motion of i against j at the contact point over the last step is split by the normal of mid-step, so that
 /// position and velocity belong to the same instant.
 template <class Law, class View>
-[[gnu::noinline]] void evaluate(strip<Law, View>& s, typename Law::history* history, const Law law, double h) {
+[[gnu::noinline, gnu::flatten]] void evaluate(strip<Law, View>& s, typename Law::history* history, const Law law,
+                                              double h) {
 #if defined(CLAST_WIDER_AT_RUN_TIME)
     if (__builtin_cpu_supports("avx2")) return detail::answer_all_wide(s, history, law, h);
 #endif
