@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <random>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
@@ -195,4 +197,28 @@ TEST_CASE("the skin finds its size by itself, from too small and from too large"
     // what costs more is done less often: open pairs in all steps against renewals
     CHECK(small.skin() > 0.2e-3);
     CHECK(large.skin() < 1.6e-3);
+}
+
+TEST_CASE("many steps at once are the same steps: bits of the grains, rows and stress of the last") {
+    for (const bool servo : {true, false}) {
+        auto one_by_one = packed(0.5e-3);
+        for (auto& axis : one_by_one.boundary.axes) axis = servo ? axis : boundaries::periodic_cell::axis{.rate = -0.5};
+        auto at_once = one_by_one;
+        for (int k = 0; k < 3 * 37; ++k) one_by_one.step();
+        for (int k = 0; k < 3; ++k) at_once.step(37);
+        CHECK(checksum(at_once.grains) == checksum(one_by_one.grains));
+        CHECK(at_once.boundary.edges() == one_by_one.boundary.edges());
+        std::size_t touching = 0;
+        std::vector<force_row> rows;
+        one_by_one.each_contact([&](const force_row& row, const pebble_pair&) { rows.push_back(row); });
+        std::size_t k = 0;
+        at_once.each_contact([&](const force_row& row, const pebble_pair&) {
+            CHECK(row.force == rows[k].force);
+            touching += rows[k++].depth > 0.0;
+        });
+        CHECK(k == rows.size());
+        CHECK(touching > 300);
+        const mat3 sigma = measure::love_weber(at_once, at_once.boundary.volume());
+        CHECK(at_once.boundary.stress().x == Approx(sigma(0, 0)).epsilon(servo ? 0.05 : 1e-3));
+    }
 }

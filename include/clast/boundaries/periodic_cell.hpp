@@ -44,8 +44,8 @@ class periodic_cell {
 
     const vec3& edges() const { return edges_; }                                                   ///< m
     vec3 edge_speeds() const { return scale({axes[0].rate, axes[1].rate, axes[2].rate}, edges_); } ///< m/s
-    /// Stress at the last look (Pa, compression positive): at most `look` steps ago, or that of the last of many steps
-    /// made at once.
+    /// Stress at the last look (Pa, compression positive): at most `look` steps ago; without servos that of the last
+    /// of many steps made at once.
     const vec3& stress() const { return stress_; }
     /// Whether an axis follows a stress.
     bool has_servo() const {

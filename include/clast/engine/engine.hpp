@@ -359,7 +359,8 @@ template <triaxial_policies P> class engine {
         control();
         bool observe = false;
         if constexpr (periodic)
-            observe = last_of_many || (totals_.steps % boundary_type::look == 0 && (keep_rows || boundary.has_servo()));
+            observe = totals_.steps % boundary_type::look == 0 ? keep_rows || boundary.has_servo()
+                                                               : last_of_many && !boundary.has_servo();
         if constexpr (breakable && has_criterion)
             look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
         const double moved = sweep(keep_rows || observe || look_);
