@@ -28,10 +28,10 @@ TEST_CASE("a pair is found by its pebbles, and one that is not listed is not") {
     contact_list<contacts::linear::history> list;
     list.pairs = {{0, 1}, {0, 7}, {2, 3}, {2, 9}, {5, 6}};
     const std::less<pebble_pair> before;
-    for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.find(list.pairs[k], before) == k);
+    for (std::size_t k = 0; k < list.size(); ++k) CHECK(find_pair(list.pairs, list.pairs[k], before) == k);
     for (const pebble_pair missing : {pebble_pair{0, 0}, {0, 2}, {1, 7}, {2, 4}, {5, 7}, {9, 9}})
-        CHECK(list.find(missing, before) == list.size());
-    CHECK(contact_list<nothing>{}.find({0, 1}, before) == 0);
+        CHECK(find_pair(list.pairs, missing, before) == list.size());
+    CHECK(find_pair({}, {0, 1}, before) == 0);
 }
 
 TEST_CASE("histories move to the pairs that both lists have, in any order they share") {

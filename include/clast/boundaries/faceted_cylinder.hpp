@@ -86,12 +86,6 @@ template <moving_unit Unit> class faceted_cylinder {
     /// is.
     bool near(const vec3& x, double reach) const {
         if (platens_.near(x.z, reach)) return true;
-        const auto [from, to] = rings_within(x.z - reach, x.z + reach);
-        double least = ring_smallest_[index(from)];
-        for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
-        const double inner = std::max(0.0, least - reach);
-        if (x.x * x.x + x.y * x.y <= inner * inner && inner > 0.0) return false;
-        // within the reach of the ring's innermost tile; of any tile that is there?
         std::array<half_slab, max_slabs> slabs;
         std::size_t n = 0;
         return gather(x, reach, 0.0, 0.0, slabs, n) > 0.0;

@@ -27,6 +27,8 @@ namespace clast {
 /// compiled to what the target has).
 using lane8 = double __attribute__((vector_size(64)));
 inline constexpr std::size_t lanes = 8;
+/// A number of items, rounded up to whole lanes.
+constexpr std::size_t whole_lanes(std::size_t items) { return (items + lanes - 1) / lanes * lanes; }
 
 /// From and to memory of any alignment.
 inline lane8 load8(const double* p) {

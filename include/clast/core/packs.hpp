@@ -39,24 +39,18 @@ template <std::size_t N> class pack_columns {
         return {a.even_ - b.even_, a.odd_ - b.odd_};
     }
     /// The first and the second double of every record, in order.
-    [[gnu::always_inline]] void first(double* to) const {
-        lane v;
-        if constexpr (N == 4)
-            v = __builtin_shufflevector(even_, odd_, 0, 4, 2, 6);
-        else
-            v = __builtin_shufflevector(even_, odd_, 0, 2);
-        std::memcpy(to, &v, sizeof v);
-    }
-    [[gnu::always_inline]] void second(double* to) const {
-        lane v;
-        if constexpr (N == 4)
-            v = __builtin_shufflevector(even_, odd_, 1, 5, 3, 7);
-        else
-            v = __builtin_shufflevector(even_, odd_, 1, 3);
-        std::memcpy(to, &v, sizeof v);
-    }
+    [[gnu::always_inline]] void first(double* to) const { column<0>(to); }
+    [[gnu::always_inline]] void second(double* to) const { column<1>(to); }
 
   private:
+    template <int C> [[gnu::always_inline]] void column(double* to) const {
+        lane v;
+        if constexpr (N == 4)
+            v = __builtin_shufflevector(even_, odd_, C, C + 4, C + 2, C + 6);
+        else
+            v = __builtin_shufflevector(even_, odd_, C, C + 2);
+        std::memcpy(to, &v, sizeof v);
+    }
     [[gnu::always_inline]] pack_columns(const lane& even, const lane& odd) : even_(even), odd_(odd) {}
     [[gnu::always_inline]] static lane2 load2(const std::byte* p) {
         lane2 v;

@@ -34,7 +34,7 @@ struct clump_strip {
     row r00{}, r01{}, r02{}, r10{}, r11{}, r12{}, r20{}, r21{}, r22{}; ///< matrix of the new orientation
     row moved{};                                                       ///< largest way of a point of the clump (m)
 
-    std::size_t lanes() const { return (size + 7) / 8 * 8; }
+    std::size_t lanes() const { return whole_lanes(size); }
 };
 
 namespace detail {
@@ -79,9 +79,6 @@ namespace detail {
     s.r20[k] = m.row[2].x, s.r21[k] = m.row[2].y, s.r22[k] = m.row[2].z;
 }
 
-} // namespace detail
-
-namespace detail {
 [[gnu::always_inline]] inline void advance_lanes(clump_strip& s, double h, double damping) {
     const std::size_t n = s.lanes();
 #if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD)

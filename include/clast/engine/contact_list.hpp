@@ -73,6 +73,13 @@ struct pebble_pair {
     constexpr auto operator<=>(const pebble_pair&) const = default;
 };
 
+/// Position of a pair among pairs that are sorted by before(a, b), or their number if it is not there.
+template <class Order>
+std::size_t find_pair(std::span<const pebble_pair> sorted, const pebble_pair& p, Order&& before) {
+    const auto it = std::lower_bound(sorted.begin(), sorted.end(), p, before);
+    return static_cast<std::size_t>((it != sorted.end() && *it == p ? it : sorted.end()) - sorted.begin());
+}
+
 /// The 27 images of a periodic cell: number (x+1) + 3 (y+1) + 9 (z+1) for a shift by x, y, z edges of -1, 0 or 1.
 inline constexpr std::uint8_t no_shift = 13;
 constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
@@ -95,11 +102,6 @@ template <class History> struct contact_list {
     void resize() {
         rows.clear();
         if constexpr (remembers) history.assign(pairs.size(), {});
-    }
-    /// Position of a pair, or size() if it is not listed. before(a, b): the order in which the list was sorted.
-    template <class Order> std::size_t find(const pebble_pair& p, Order&& before) const {
-        const auto it = std::lower_bound(pairs.begin(), pairs.end(), p, before);
-        return it != pairs.end() && *it == p ? static_cast<std::size_t>(it - pairs.begin()) : pairs.size();
     }
     /// Adds a pair in its place, with an empty history and an empty row.
     template <class Order> void insert(const pebble_pair& p, Order&& before) {

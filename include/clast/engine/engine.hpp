@@ -206,7 +206,6 @@ template <triaxial_policies P> class engine {
     /// Sets the velocity of a clump's centre (m/s).
     void set_velocity(std::size_t grain_id, const vec3& v) requires(specimen_type::turns) {
         grains.motion[grain_id].v = v;
-        grains.place(grain_id, [](std::size_t) { return true; });
     }
     /// To be called after velocities were set by hand, so that the audit knows of their energy.
     void count_initial_energy() { totals_.initial_energy = kinetic_energy(); }
@@ -517,33 +516,25 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    /// Sum of the rows of one body about its centre, in the order of the list; `ahead` seconds from t_n, like the
+    /// Sum of the fast rows of one body about its centre, in the order of the list; `ahead` seconds from t_n, like the
     /// centre. Friction losses are booked on side i.
-    load_sum sum_rows(const incidence& of, std::size_t body, const contact_list<history>& list,
-                      const std::vector<wall_row>& wall, const vec3& centre, double ahead) const {
+    load_sum sum_fast(std::size_t body, const vec3& centre, double ahead) const {
         load_sum s;
-        const std::size_t contacts = list.size();
-        for (const incidence::entry& one : of.of(body)) {
+        for (const incidence::entry& one : fast_of_.of(body)) {
             const auto& p = grains.pebbles[at(one.pebble)];
-            vec3 arm;
-            if constexpr (specimen_type::turns) {
-                arm = p.x - centre;
-                if (ahead != 0.0) arm += ahead * grains.velocity_of(one.pebble);
-            }
-            if (one.row() < contacts) {
-                const force_row& row = list.rows[one.row()];
+            vec3 arm = p.x - centre;
+            if (ahead != 0.0) arm += ahead * grains.velocity_of(one.pebble);
+            if (one.row() < fast_.size()) {
+                const force_row& row = fast_.rows[one.row()];
                 const double side = one.side();
                 const vec3 f = side * row.force;
                 s.force += f;
-                if constexpr (specimen_type::turns)
-                    s.moment += cross(arm + (side * (p.radius - 0.5 * row.depth)) * row.normal, f);
-                else
-                    s.moment += (p.radius - 0.5 * row.depth) * cross(row.normal, row.force);
+                s.moment += cross(arm + (side * (p.radius - 0.5 * row.depth)) * row.normal, f);
                 s.dissipated += (0.5 + 0.5 * side) * row.dissipated; // on side i
             } else {
-                const wall_row& w = wall[one.row() - contacts];
+                const wall_row& w = fast_wall_[one.row() - fast_.size()];
                 s.force += w.force;
-                if constexpr (specimen_type::turns) s.moment += cross(arm, w.force);
+                s.moment += cross(arm, w.force);
             }
         }
         return s;
@@ -665,7 +656,7 @@ template <triaxial_policies P> class engine {
                 settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
                     if (broken_.halo[g] == 0) return;
                     const body_motion& m = grains.motion[g];
-                    const load_sum s = sum_rows(fast_of_, g, fast_, fast_wall_, m.x + ahead * m.v, ahead);
+                    const load_sum s = sum_fast(g, m.x + ahead * m.v, ahead);
                     breakage_state::mean_load& mean = broken_.fast_load[g];
                     mean.force += share * s.force;
                     mean.moment += share * s.moment;
@@ -694,7 +685,7 @@ template <triaxial_policies P> class engine {
     void advance_ball(std::size_t p, double h) {
         const std::size_t b = ball(static_cast<std::int32_t>(p));
         body_motion& m = grains.motion[b];
-        const load_sum s = sum_rows(fast_of_, b, fast_, fast_wall_, grains.pebbles[p].x, 0.0);
+        const load_sum s = sum_fast(b, grains.pebbles[p].x, 0.0);
         const vec3 df = damping_force(s.force, m.v, settings.damping);
         const vec3 dm = damping_force(s.moment, m.w, settings.damping);
         const vec3 v = m.v, w = m.w;
@@ -731,8 +722,7 @@ template <triaxial_policies P> class engine {
                         for (std::size_t k = 0; k < n; ++k) {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             const body_motion& m = grains.motion[b];
-                            const load_sum s =
-                                sum_rows(fast_of_, b, fast_, fast_wall_, grains.pebbles[first[l] + k].x, 0.0);
+                            const load_sum s = sum_fast(b, grains.pebbles[first[l] + k].x, 0.0);
                             balls[l * n + k] = {m.v, m.w, grains.pebbles[first[l] + k].x};
                             load[l * n + k] = {s.force, s.moment};
                             grains.losses[b].friction += s.dissipated;
@@ -786,8 +776,11 @@ template <triaxial_policies P> class engine {
             ++(r.mode == break_mode::tension ? totals_.broken_tension : totals_.broken_shear);
             // the pair goes on as a frictional contact
             const auto order = pair_order();
-            const auto k = std::lower_bound(asleep_.begin(), asleep_.end(), pair, order);
-            if (k != asleep_.end() && *k == pair) asleep_.erase(k), fast_.insert(pair, order);
+            const std::size_t k = find_pair(asleep_, pair, order);
+            if (k < asleep_.size()) {
+                asleep_.erase(asleep_.begin() + static_cast<std::ptrdiff_t>(k));
+                fast_.insert(pair, order);
+            }
             update_fragments(which, r.cluster);
             estimate_due_ = true; // a lighter piece may need a smaller sub-step
         }
@@ -1099,11 +1092,9 @@ template <triaxial_policies P> class engine {
                 list.image.resize(all.size());
                 for (std::size_t k = 0; k < all.size(); ++k) list.image[k] = all[k].image;
             }
-        }
-        for (contact_list<history>* list : {&slow, &fast}) {
-            list->resize();
-            list->take_histories(slow_, pair_order());
-            list->take_histories(fast_, pair_order());
+            list.resize();
+            list.take_histories(slow_, pair_order());
+            list.take_histories(fast_, pair_order());
         }
         slow_ = std::move(slow);
         fast_ = std::move(fast);

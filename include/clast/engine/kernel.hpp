@@ -50,7 +50,7 @@ template <contacts::contact_law Law, class View> struct strip {
     row dissipated;                   ///< J
 
     /// Lanes that are computed: `size` rounded up to a multiple of 8.
-    std::size_t lanes() const { return (size + 7) / 8 * 8; }
+    std::size_t lanes() const { return whole_lanes(size); }
 };
 
 /// Force and moment on a body as the kernel sums them; the fourth numbers fill the register (of the force: nothing of

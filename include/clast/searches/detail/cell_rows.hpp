@@ -241,37 +241,42 @@ class pair_test {
     std::int32_t of_a_[capacity], of_b_[capacity];
 };
 
-/// Adds the pairs among the spheres of `g`, each once: a sphere is tested against those after it in its own row, and
-/// against the rows after its own.
-inline void find_among(const cell_rows& g, double margin, std::vector<sphere_pair>& found) {
-    pair_test pairs(g, g, margin, found);
-    for (std::size_t p = 0; p < g.size(); ++p) {
+/// rows(pairs, p, reach, cx, cy) for every sphere p of `a` that may have neighbours in `b`; cx, cy: cells of `b` within
+/// its reach. `rows` tests the sphere against runs of `b`.
+template <class F>
+void each_reach(const cell_rows& a, const cell_rows& b, double margin, std::vector<sphere_pair>& found, F&& rows) {
+    pair_test pairs(a, b, margin, found);
+    for (std::size_t p = 0; p < a.size(); ++p) {
         const double reach = pairs.reach(p);
-        if (!(reach > 0.0)) continue;
-        const cell_rows::range cx = g.cells(0, g.x[p] - reach, g.x[p] + reach);
-        const cell_rows::range cy = g.cells(1, g.y[p] - reach, g.y[p] + reach);
-        const std::size_t own_y = g.cell(1, g.y[p]), own_z = g.cell(2, g.z[p]), last_z = g.cell(2, g.z[p] + reach);
-        pairs.test(p, {p + 1, g.run(cx, own_y, own_z).last});
-        for (std::size_t y = own_y + 1; y <= cy.last; ++y) pairs.test(p, g.run(cx, y, own_z));
-        for (std::size_t z = own_z + 1; z <= last_z; ++z)
-            for (std::size_t y = cy.first; y <= cy.last; ++y) pairs.test(p, g.run(cx, y, z));
+        if (reach > 0.0)
+            rows(pairs, p, reach, b.cells(0, a.x[p] - reach, a.x[p] + reach),
+                 b.cells(1, a.y[p] - reach, a.y[p] + reach));
     }
     pairs.flush();
 }
 
+/// Adds the pairs among the spheres of `g`, each once: a sphere is tested against those after it in its own row, and
+/// against the rows after its own.
+inline void find_among(const cell_rows& g, double margin, std::vector<sphere_pair>& found) {
+    each_reach(g, g, margin, found,
+               [&](pair_test& pairs, std::size_t p, double reach, cell_rows::range cx, cell_rows::range cy) {
+                   const std::size_t own_y = g.cell(1, g.y[p]), own_z = g.cell(2, g.z[p]);
+                   const std::size_t last_z = g.cell(2, g.z[p] + reach);
+                   pairs.test(p, {p + 1, g.run(cx, own_y, own_z).last});
+                   for (std::size_t y = own_y + 1; y <= cy.last; ++y) pairs.test(p, g.run(cx, y, own_z));
+                   for (std::size_t z = own_z + 1; z <= last_z; ++z)
+                       for (std::size_t y = cy.first; y <= cy.last; ++y) pairs.test(p, g.run(cx, y, z));
+               });
+}
+
 /// Adds the pairs of a sphere of `a` and one of `b`, which have none in common.
 inline void find_between(const cell_rows& a, const cell_rows& b, double margin, std::vector<sphere_pair>& found) {
-    pair_test pairs(a, b, margin, found);
-    for (std::size_t p = 0; p < a.size(); ++p) {
-        const double reach = pairs.reach(p);
-        if (!(reach > 0.0)) continue;
-        const cell_rows::range cx = b.cells(0, a.x[p] - reach, a.x[p] + reach);
-        const cell_rows::range cy = b.cells(1, a.y[p] - reach, a.y[p] + reach);
-        const cell_rows::range cz = b.cells(2, a.z[p] - reach, a.z[p] + reach);
-        for (std::size_t z = cz.first; z <= cz.last; ++z)
-            for (std::size_t y = cy.first; y <= cy.last; ++y) pairs.test(p, b.run(cx, y, z));
-    }
-    pairs.flush();
+    each_reach(a, b, margin, found,
+               [&](pair_test& pairs, std::size_t p, double reach, cell_rows::range cx, cell_rows::range cy) {
+                   const cell_rows::range cz = b.cells(2, a.z[p] - reach, a.z[p] + reach);
+                   for (std::size_t z = cz.first; z <= cz.last; ++z)
+                       for (std::size_t y = cy.first; y <= cy.last; ++y) pairs.test(p, b.run(cx, y, z));
+               });
 }
 
 /// Copies pairs sorted by one of their members, below n; those that share it keep their order.
