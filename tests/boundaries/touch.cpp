@@ -8,9 +8,9 @@ using namespace clast::boundaries;
 TEST_CASE("the energy of a sphere against several facets is that of its way out, not a sum over facets",
           "[boundaries]") {
     touches t;
-    t.add({5, {-1, 0, 0}, 3e-4});
-    t.add({6, {-0.6, 0.8, 0}, 1e-4});
-    t.add({bottom_platen, {0, 0, 1}, 2e-4});
+    t.add({5, {-1, 0, 0}, 3e-4, 1.0});
+    t.add({6, {-0.6, 0.8, 0}, 1e-4, 1.0});
+    t.add({bottom_platen, {0, 0, 1}, 2e-4, 1.0});
     const clast::vec3 u = lateral_push(t);
     CHECK(u.x == Approx(-3.6e-4).epsilon(1e-12));
     CHECK(u.y == Approx(0.8e-4).epsilon(1e-12));

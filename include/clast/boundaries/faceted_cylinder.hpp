@@ -86,27 +86,39 @@ template <moving_unit Unit> class faceted_cylinder {
     /// is.
     bool near(const vec3& x, double reach) const {
         if (platens_.near(x.z, reach)) return true;
+        const surroundings around = rings_around(x, reach, 0.0);
+        if (around.out_of_reach) return false;
         std::array<half_slab, max_slabs> slabs;
         std::size_t n = 0;
-        return gather(x, reach, 0.0, 0.0, slabs, n) > 0.0;
+        return gather(x, reach, 0.0, 0.0, around, dir_.towards(x.x, x.y), slabs, n) > 0.0;
     }
     /// Contacts of a sphere with the facets as they will be `ahead` seconds later at their present velocities.
     touches touch(const vec3& x, double r, double ahead = 0.0) const {
         touches out;
         platens_.touch_sphere(x, r, ahead, out);
+        // the way out may be longer than the deepest overlap and then meets more tiles; as a rule the deepest is that
+        // of the tile in front
+        double margin = 0.25 * r;
+        surroundings around = rings_around(x, r + margin, ahead);
+        if (around.out_of_reach) return out;
+        const int facing = dir_.towards(x.x, x.y);
+        const double front = r - separate(slab(ring_at(x.z), facing, ahead), x).distance;
+        if (2.0 * front > margin) margin = 2.0 * front, around = rings_around(x, r + margin, ahead);
         std::array<half_slab, max_slabs> slabs;
         std::size_t n = 0;
-        double deepest = gather(x, r, 0.25 * r, ahead, slabs, n);
+        const double deepest = gather(x, r, margin, ahead, around, facing, slabs, n);
         if (deepest <= 0.0) return out;
-        // the way out may be longer than the deepest overlap and then meets more facets
-        if (deepest > 0.125 * r) deepest = gather(x, r, 2.0 * deepest, ahead, slabs, n);
+        if (2.0 * deepest > margin) {
+            margin = 2.0 * deepest;
+            gather(x, r, margin, ahead, rings_around(x, r + margin, ahead), facing, slabs, n);
+        }
         push_out(std::span<const half_slab>(slabs).first(n), x, r, out);
         return out;
     }
     /// Whether a pebble is lost: its centre is beyond a platen, or beyond its ring of tiles, by more than its radius.
     bool outside(const vec3& x, double r) const {
         if (!(x.z > platens_.bottom - r && x.z < platens_.top + r)) return true; // also for NaN
-        const int k = rings_within(x.z, x.z).first;
+        const int k = ring_at(x.z);
         const double limit = ring_smallest_[index(k)] + r;
         const double rho2 = x.x * x.x + x.y * x.y;
         if (rho2 <= limit * limit) return false;
@@ -193,16 +205,15 @@ template <moving_unit Unit> class faceted_cylinder {
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, volume_,
-          lateral_area_, lateral_speed_, calm_, latch_, chains_, backward_, counters_);
+        a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, edge_,
+          volume_, lateral_area_, lateral_speed_, calm_, latch_, chains_, backward_, counters_);
     }
 
   private:
     static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
     std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
     double tile_height() const { return height() / rings_; }
-    /// Height (m) and upward velocity (m/s) of the edge below a ring; the one above the last ring is number rings_.
-    double low_edge(int ring) const { return bottom() + ring * tile_height(); }
+    /// Upward velocity (m/s) of the edge below a ring; the one above the last ring is number rings_.
     double edge_velocity(int ring) const {
         const double share = static_cast<double>(ring) / rings_;
         return (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1];
@@ -210,20 +221,45 @@ template <moving_unit Unit> class faceted_cylinder {
     /// Units around the axis: each ring is one unit, or each tile.
     int units_around() const { return Unit == moving_unit::tile ? around_ : 1; }
 
-    struct ring_range {
-        int first, last;
-    };
-    /// Rings that the heights [low, high] meet; the end ones reach on for ever.
-    ring_range rings_within(double low, double high) const {
-        const auto ring = [&](double z) {
-            const double k = std::floor((z - bottom()) / tile_height());
-            return k <= 0.0 ? 0 : k >= rings_ - 1 ? rings_ - 1 : static_cast<int>(k);
-        };
-        return {ring(low), ring(high)};
+    /// Ring at a height; the end ones reach on for ever.
+    int ring_at(double z) const {
+        const double k = std::floor((z - bottom()) / (edge_[1] - edge_[0]));
+        return k <= 0.0 ? 0 : k >= rings_ - 1 ? rings_ - 1 : static_cast<int>(k);
     }
-    /// Collects the tiles within r + margin of x; returns the deepest overlap with a single one (m).
-    double gather(const vec3& x, double r, double margin, double ahead, std::array<half_slab, max_slabs>& slabs,
-                  std::size_t& n) const;
+    /// Rings that a sphere may touch, and their least apothem (m).
+    struct surroundings {
+        int first = 0, last = 0;
+        double least = 0.0;
+        bool out_of_reach = false; ///< none of their tiles is within reach
+    };
+    surroundings rings_around(const vec3& x, double reach, double ahead) const {
+        surroundings s{ring_at(x.z - reach), ring_at(x.z + reach)};
+        s.least = ring_smallest_[index(s.first)];
+        for (int k = s.first + 1; k <= s.last; ++k) s.least = std::min(s.least, ring_smallest_[index(k)]);
+        s.least -= std::abs(ahead) * lateral_speed_;
+        const double inner = s.least - reach;
+        s.out_of_reach = inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner;
+        return s;
+    }
+    /// A tile as it will be `ahead` seconds later.
+    half_slab slab(int ring, int i, double ahead) const {
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        const std::size_t j = tile(ring, i);
+        half_slab h{dir_.cosine[index(i)],
+                    dir_.sine[index(i)],
+                    apothem_[j],
+                    ring == 0 ? -infinite : edge_[index(ring)],
+                    ring + 1 == rings_ ? infinite : edge_[index(ring + 1)],
+                    static_cast<std::int32_t>(j) + first_lateral_facet};
+        if (ahead != 0.0)
+            h.apothem -= velocity_[j] * ahead, h.low += edge_velocity(ring) * ahead,
+                h.high += edge_velocity(ring + 1) * ahead;
+        return h;
+    }
+    /// Collects the tiles within r + margin of x, of the rings around it; returns the deepest overlap with a single one
+    /// (m), 0 without any. facing: the column in front of x.
+    double gather(const vec3& x, double r, double margin, double ahead, const surroundings& around, int facing,
+                  std::array<half_slab, max_slabs>& slabs, std::size_t& n) const;
     void refresh();
     void check_state() const;
     double lateral_force(std::span<const facet_load> loads) const {
@@ -255,6 +291,7 @@ template <moving_unit Unit> class faceted_cylinder {
     std::vector<double> velocity_; // per tile, inward
     std::vector<interval> visible_;
     std::vector<double> ring_smallest_; // per ring: least apothem
+    std::vector<double> edge_;          // heights (m): ring k lies between edge_[k] and edge_[k + 1]
     double volume_ = 0.0;
     double lateral_area_ = 0.0;
     double lateral_speed_ = 0.0;      // largest |velocity_|
@@ -305,6 +342,7 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     calm_.resize(index(rings_) * index(units_around()));
     visible_.resize(tiles);
     ring_smallest_.resize(index(rings_));
+    edge_.resize(index(rings_) + 1);
     if constexpr (Unit != moving_unit::wall) {
         const int columns = units_around();
         for (int i = 0; i < columns; ++i) chains_.push_back({i, around_, rings_, false, i * rings_, set_.largest_gap});
@@ -318,34 +356,16 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
 }
 
 template <moving_unit Unit>
-double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, double ahead,
-                                      std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
-    const double reach = r + margin;
-    const ring_range rings = rings_within(x.z - reach, x.z + reach);
-    const int from = rings.first, to = rings.last; // Clang's OpenMP cannot capture a structured binding
-    double least = ring_smallest_[index(from)];
-    for (int k = from + 1; k <= to; ++k) least = std::min(least, ring_smallest_[index(k)]);
-    least -= std::abs(ahead) * lateral_speed_;
+double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, double ahead, const surroundings& around,
+                                      int facing, std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
     n = 0;
     double deepest = 0.0;
-    const double inner = least - reach;
-    if (inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner) return deepest;
-
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     std::array<double, max_slabs> overlap;
     const auto look_at =
         [&](int i) { // the tiles of column i; false where even the nearest of all rings is out of reach
-            const double nx = dir_.cosine[index(i)];
-            const double ny = dir_.sine[index(i)];
-            if (x.x * nx + x.y * ny + reach <= least) return false;
-            for (int k = from; k <= to; ++k) {
-                const std::size_t j = tile(k, i);
-                const half_slab h{nx,
-                                  ny,
-                                  apothem_[j] - velocity_[j] * ahead,
-                                  k == 0 ? -infinite : low_edge(k) + edge_velocity(k) * ahead,
-                                  k + 1 == rings_ ? infinite : low_edge(k + 1) + edge_velocity(k + 1) * ahead,
-                                  static_cast<std::int32_t>(j) + first_lateral_facet};
+            if (x.x * dir_.cosine[index(i)] + x.y * dir_.sine[index(i)] + (r + margin) <= around.least) return false;
+            for (int k = around.first; k <= around.last; ++k) {
+                const half_slab h = slab(k, i, ahead);
                 const double depth = r - separate(h, x).distance;
                 if (depth <= -margin) continue;
                 deepest = std::max(deepest, depth);
@@ -360,7 +380,6 @@ double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, do
             }
             return true;
         };
-    const int facing = dir_.towards(x.x, x.y);
     bool more = look_at(facing);
     for (int m = 1; 2 * m < around_ && more; ++m) {
         // by turns: a tile out of reach on one side rules out the next one on the other
@@ -383,6 +402,7 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::refresh() {
         }
         ring_smallest_[index(k)] = smallest;
     }
+    for (int k = 0; k <= rings_; ++k) edge_[index(k)] = bottom() + k * tile_height();
     volume_ = area * tile_height();
     lateral_area_ = around * tile_height();
 }
@@ -542,7 +562,7 @@ std::vector<facet_view> faceted_cylinder<Unit>::view(std::span<const facet_load>
                        -1});
     }
     for (int k = 0; k < rings_; ++k) {
-        const double low = low_edge(k), high = low_edge(k + 1);
+        const double low = edge_[index(k)], high = edge_[index(k + 1)];
         for (int i = 0; i < around_; ++i) {
             const std::size_t j = tile(k, i);
             const interval s = visible_[j];

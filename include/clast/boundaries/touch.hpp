@@ -2,6 +2,7 @@
 // Contacts of one pebble with the facets of a boundary, and the load that a facet collects from them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -16,16 +17,25 @@ inline constexpr std::int32_t first_lateral_facet = 2; ///< then ring * tiles_pe
 /// One contact of a pebble with a facet. The force on the pebble is k * depth * normal.
 struct touch {
     std::int32_t facet;
-    vec3 normal;        ///< unit vector into the specimen: direction of the force on the pebble
-    double depth;       ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
-    double along = 1.0; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
+    vec3 normal;  ///< unit vector into the specimen: direction of the force on the pebble
+    double depth; ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
+    double along; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
 };
 
 /// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
 /// platens.
 struct touches {
-    std::array<touch, 5> at;
     int size = 0;
+    std::array<touch, 5> at;
+
+    constexpr touches() = default;
+    /// Copies those that are there: most pebbles near a wall touch one facet or none.
+    constexpr touches(const touches& other) { *this = other; }
+    constexpr touches& operator=(const touches& other) {
+        size = other.size;
+        std::copy(other.begin(), other.end(), at.begin());
+        return *this;
+    }
 
     constexpr void add(const touch& t) { at[static_cast<std::size_t>(size++)] = t; }
     constexpr const touch* begin() const { return at.data(); }

@@ -254,10 +254,10 @@ template <triaxial_policies P> class engine {
     /// A pebble at the boundary: what touches it and the forces that it takes (N).
     struct wall_row {
         std::int32_t pebble = -1;
-        boundaries::touches touch;
-        vec3 force;                     ///< on the pebble
         double lateral = 0.0;           ///< size of the lateral force (N)
+        vec3 force;                     ///< on the pebble
         std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
+        boundaries::touches touch;
 
         /// Force (N) along the normal of one of its touches: lateral facets share by their parts of the way out.
         double share(const boundaries::touch& t) const {
