@@ -1058,7 +1058,7 @@ template <triaxial_policies P> class engine {
         settings.run.for_each(
             chunks,
             [&](std::size_t c) {
-                std::vector<std::int32_t> near_b; // work space
+                std::vector<std::int32_t> near_a, near_b; // work space
                 for (std::size_t k = c * chunk; k < std::min(near.size(), (c + 1) * chunk); ++k) {
                     if (at(near[k].first) >= real) continue; // two ghosts
                     const searches::sphere& a = spheres[at(near[k].first)];
@@ -1067,7 +1067,7 @@ template <triaxial_policies P> class engine {
                     const bool light = at(a.id) >= ng || at(b.id) >= ng;
                     const std::uint8_t image =
                         at(near[k].second) >= real ? ghost_image[at(near[k].second) - real] : no_shift;
-                    pebble_pairs(a, b, image, near_b, found[c][light ? 1 : 0]);
+                    pebble_pairs(a, b, image, near_a, near_b, found[c][light ? 1 : 0]);
                 }
             },
             1);
@@ -1164,36 +1164,50 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    /// Pairs of pebbles of two bodies, in the order of the lists. near_b: work space, pebbles of a that b may reach.
+    /// Pairs of pebbles of two neighbours; those with the same second pebble stand by the first one. near_a, near_b:
+    /// work space, pebbles of one that the other may reach.
     void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::uint8_t image,
-                      std::vector<std::int32_t>& near_b, std::vector<listed_pair>& out) const {
+                      std::vector<std::int32_t>& near_a, std::vector<std::int32_t>& near_b,
+                      std::vector<listed_pair>& out) const {
+        const auto list = [&](std::int32_t p, std::int32_t q) { // seen from q, it is p that lies the other way
+            return p < q ? listed_pair{{p, q}, image}
+                         : listed_pair{{q, p}, static_cast<std::uint8_t>(2 * no_shift - image)};
+        };
+        const auto ng = static_cast<std::int32_t>(grains.body_count());
+        if constexpr (!specimen_type::turns) return out.push_back(list(a.id, b.id)); // the search has tested them
+        if (a.id >= ng && b.id >= ng) return out.push_back(list(a.id - ng, b.id - ng));
         vec3 shift;
         if constexpr (periodic) shift = image_shift(image, boundary.edges());
-        const auto range = [&](const searches::sphere& s) {
-            const std::size_t ng = grains.body_count();
-            return at(s.id) >= ng ? index_range{at(s.id) - ng, at(s.id) - ng + 1} : grains.pebbles_of(at(s.id));
+        const auto pebble = [&](std::int32_t p, const vec3& by) {
+            searches::sphere s{grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius};
+            if constexpr (periodic) s.centre += by;
+            return s;
         };
-        const auto pebble = [&](std::size_t p) {
-            return searches::sphere{grains.pebbles[p].x, grains.pebbles[p].radius};
+        // all are written, those within the skin are kept: no branch that depends on the packing
+        const auto collect = [&](const searches::sphere& body, const vec3& by, const searches::sphere& other,
+                                 std::vector<std::int32_t>& kept) {
+            const index_range own =
+                body.id >= ng ? index_range{at(body.id - ng), at(body.id - ng) + 1} : grains.pebbles_of(at(body.id));
+            kept.resize(own.end - own.begin + 1);
+            std::size_t n = 0;
+            for (auto p = static_cast<std::int32_t>(own.begin); p < static_cast<std::int32_t>(own.end); ++p) {
+                kept[n] = p;
+                n += searches::within(pebble(p, by), other, skin_);
+            }
+            kept.resize(n);
         };
-        const auto [a0, a1] = range(a);
-        const auto [b0, b1] = range(b);
-        near_b.clear();
-        for (std::size_t i = a0; i < a1; ++i)
-            if (a1 - a0 == 1 || searches::within(pebble(i), b, skin_)) near_b.push_back(static_cast<std::int32_t>(i));
-        if (near_b.empty()) return;
-        for (std::size_t j = b0; j < b1; ++j) {
-            searches::sphere pj = pebble(j);
-            pj.centre += shift;
-            if (a1 - a0 > 1 && !searches::within(a, pj, skin_)) continue;
-            for (std::int32_t p : near_b)
-                if (searches::within(pebble(at(p)), pj, skin_)) {
-                    const auto q = static_cast<std::int32_t>(j);
-                    // seen from j, it is i that lies the other way
-                    out.push_back(p < q ? listed_pair{{p, q}, image}
-                                        : listed_pair{{q, p}, static_cast<std::uint8_t>(2 * no_shift - image)});
-                }
+        collect(a, {}, b, near_a);
+        collect(b, shift, a, near_b);
+        std::size_t n = out.size();
+        out.resize(n + near_a.size() * near_b.size() + 1);
+        for (std::int32_t q : near_b) {
+            const searches::sphere pebble_q = pebble(q, shift);
+            for (std::int32_t p : near_a) {
+                out[n] = list(p, q);
+                n += searches::within(pebble(p, {}), pebble_q, skin_);
+            }
         }
+        out.resize(n);
     }
     /// Into the order of the lists: by the group of the first pebble, then each group, which is short.
     void sort(std::vector<listed_pair>& all) const {

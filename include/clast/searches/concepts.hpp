@@ -48,8 +48,8 @@ inline constexpr double doubt = 1e-12;
 /// asks for an overlap. Lengths may be anything whose square is a normal number.
 inline bool within(const sphere& a, const sphere& b, double margin) {
     const double far = norm2(b.centre - a.centre), near = detail::near(a.radius, b.radius, margin);
-    if (far >= (1.0 + detail::doubt) * near) return false;
-    return far < (1.0 - detail::doubt) * near || detail::within_exactly(a, b, margin);
+    const bool surely = far < (1.0 - detail::doubt) * near, perhaps = far < (1.0 + detail::doubt) * near;
+    return surely == perhaps ? surely : detail::within_exactly(a, b, margin); // no branch that depends on the packing
 }
 
 /// S finds all pairs with gap < margin, each once, sorted; the same pairs for every search.
