@@ -1054,7 +1054,7 @@ template <triaxial_policies P> class engine {
 
         constexpr std::size_t chunk = 256;
         const std::size_t chunks = (near.size() + chunk - 1) / chunk;
-        std::vector<std::array<std::vector<listed_pair>, 2>> found(chunks);
+        found_pairs found(chunks);
         settings.run.for_each(
             chunks,
             [&](std::size_t c) {
@@ -1074,24 +1074,16 @@ template <triaxial_policies P> class engine {
         contact_list<history> slow, fast;
         for (const std::size_t which : {0U, 1U}) {
             contact_list<history>& list = which == 0 ? slow : fast;
-            std::vector<listed_pair> all;
-            for (const auto& part : found) all.insert(all.end(), part[which].begin(), part[which].end());
-            sort(all);
+            sort(found, which, list);
             if constexpr (breakable)
                 if (which == 1) { // what a bond carries sleeps as a contact
                     asleep_.clear();
-                    std::erase_if(all, [&](const listed_pair& p) {
-                        if (!is_bonded(p.pair)) return false;
-                        asleep_.push_back(p.pair);
+                    std::erase_if(list.pairs, [&](const pebble_pair& p) {
+                        if (!is_bonded(p)) return false;
+                        asleep_.push_back(p);
                         return true;
                     });
                 }
-            list.pairs.resize(all.size());
-            for (std::size_t k = 0; k < all.size(); ++k) list.pairs[k] = all[k].pair;
-            if constexpr (periodic) {
-                list.image.resize(all.size());
-                for (std::size_t k = 0; k < all.size(); ++k) list.image[k] = all[k].image;
-            }
             list.resize();
             list.take_histories(slow_, pair_order());
             list.take_histories(fast_, pair_order());
@@ -1127,6 +1119,7 @@ template <triaxial_policies P> class engine {
         pebble_pair pair;
         std::uint8_t image;
     };
+    using found_pairs = std::vector<std::array<std::vector<listed_pair>, 2>>; ///< by parts: slow and fast
     /// Puts every body back into the cell, and adds images of those near its faces: for half of the 26 shifts, so that
     /// each pair is named once.
     void add_ghosts(std::vector<searches::sphere>& spheres, std::vector<std::uint8_t>& image) {
@@ -1209,21 +1202,35 @@ template <triaxial_policies P> class engine {
         }
         out.resize(n);
     }
-    /// Into the order of the lists: by the group of the first pebble, then each group, which is short.
-    void sort(std::vector<listed_pair>& all) const {
-        const auto before = [order = pair_order()](const listed_pair& a, const listed_pair& b) {
-            return order(a.pair, b.pair);
+    /// Puts pairs into the order of the lists: two counting sorts, by the second pebble and then by the group of the
+    /// first. Among equals the search has put first pebbles in order, and both sorts leave them so.
+    void sort(const found_pairs& found, std::size_t which, contact_list<history>& list) const {
+        const auto counting_sort = [](std::size_t keys, auto&& each, auto&& key, auto&& put) {
+            std::vector<std::uint32_t> next(keys + 1, 0);
+            each([&](const listed_pair& p) { ++next[key(p) + 1]; });
+            std::partial_sum(next.begin(), next.end(), next.begin());
+            each([&](const listed_pair& p) { put(next[key(p)]++, p); });
         };
-        if (std::is_sorted(all.begin(), all.end(), before)) return;
-        std::vector<std::uint32_t> start(grains.grain_count() + 1, 0);
-        for (const listed_pair& p : all) ++start[grains.group_of(p.pair.i) + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        std::vector<listed_pair> sorted(all.size());
-        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-        for (const listed_pair& p : all) sorted[next[grains.group_of(p.pair.i)]++] = p;
-        for (std::size_t g = 0; g + 1 < start.size(); ++g)
-            std::sort(sorted.begin() + start[g], sorted.begin() + start[g + 1], before);
-        all = std::move(sorted);
+        std::size_t count = 0;
+        for (const auto& part : found) count += part[which].size();
+        std::vector<listed_pair> by_second(count);
+        counting_sort(
+            grains.pebble_count(),
+            [&](auto&& f) {
+                for (const auto& part : found)
+                    for (const listed_pair& p : part[which]) f(p);
+            },
+            [](const listed_pair& p) { return at(p.pair.j); },
+            [&](std::size_t k, const listed_pair& p) { by_second[k] = p; });
+        list.pairs.resize(count);
+        if constexpr (periodic) list.image.resize(count);
+        counting_sort(
+            grains.grain_count(), [&](auto&& f) { std::for_each(by_second.begin(), by_second.end(), f); },
+            [&](const listed_pair& p) { return grains.group_of(p.pair.i); },
+            [&](std::size_t k, const listed_pair& p) {
+                list.pairs[k] = p.pair;
+                if constexpr (periodic) list.image[k] = p.image;
+            });
     }
 
     bool is_bonded(const pebble_pair& p) const {
