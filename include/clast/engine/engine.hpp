@@ -1040,6 +1040,7 @@ template <triaxial_policies P> class engine {
         choose_skin();
         const std::size_t ng = grains.body_count();
         std::vector<searches::sphere> spheres;
+        spheres.reserve(2 * ng); // with those at the faces of a periodic cell
         for (std::size_t g = 0; g < ng; ++g)
             if (grains.is_swept(g))
                 spheres.push_back({grains.centre(g), grains.bounding_radius(g), static_cast<std::int32_t>(g)});
@@ -1145,15 +1146,20 @@ template <triaxial_policies P> class engine {
                                  fmt::format("step {}", totals_.steps), "a grain would touch two images of another",
                                  "take a cell of at least four grain diameters"});
             const std::size_t real = spheres.size();
-            for (std::size_t k = 0; k < real; ++k)
+            for (std::size_t k = 0; k < real; ++k) {
+                const vec3 own = spheres[k].centre;
+                if (std::abs(own.x) < 0.5 * edges.x - reach && std::abs(own.y) < 0.5 * edges.y - reach &&
+                    std::abs(own.z) < 0.5 * edges.z - reach)
+                    continue; // far from every face
                 for (std::size_t i = no_shift + 1; i < 27; ++i) {
-                    const vec3 c = spheres[k].centre + image_shift(i, edges);
+                    const vec3 c = own + image_shift(i, edges);
                     if (std::abs(c.x) > 0.5 * edges.x + reach || std::abs(c.y) > 0.5 * edges.y + reach ||
                         std::abs(c.z) > 0.5 * edges.z + reach)
                         continue;
                     spheres.push_back({c, spheres[k].radius, spheres[k].id});
                     image.push_back(static_cast<std::uint8_t>(i));
                 }
+            }
         }
     }
 
@@ -1296,11 +1302,14 @@ template <triaxial_policies P> class engine {
             for (std::size_t r = 0; r < count; ++r) {
                 ranges_[r].first_body = body;
                 const std::size_t target = (r + 1) * n / count;
-                while (body < bodies && (r + 1 == count || row < target)) {
-                    while (row < n && grains.body_of(slow_.pairs[row].i) == body) ++row;
-                    range_of[body++] = r;
-                }
+                if (r + 1 == count)
+                    body = bodies;
+                else
+                    for (; row < target; ++body)
+                        while (row < n && grains.body_of(slow_.pairs[row].i) == body) ++row;
                 ranges_[r].last_body = body;
+                std::fill(range_of.begin() + static_cast<std::ptrdiff_t>(ranges_[r].first_body),
+                          range_of.begin() + static_cast<std::ptrdiff_t>(body), r);
             }
         }
         slow_shared_ = 0;
@@ -1330,30 +1339,33 @@ template <triaxial_policies P> class engine {
         }
         shared_load_.resize(slow_shared_);
         acting_.assign(bodies, {});
-        own_end_.assign(bodies, 0);
-        std::size_t row = slow_shared_, shared = 0, wall = 0;
+        // behind the last contact of a body, or where that of the bodies before it is
+        own_end_.assign(bodies, static_cast<std::uint32_t>(slow_shared_));
+        for (std::size_t k = slow_shared_; k < n; ++k)
+            own_end_[grains.body_of(slow_.pairs[k].i)] = static_cast<std::uint32_t>(k + 1);
+        std::partial_sum(own_end_.begin(), own_end_.end(), own_end_.begin(),
+                         [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); });
+        const auto end_of = [&](std::size_t body) { return body == 0 ? slow_shared_ : own_end_[body - 1]; };
+        std::size_t shared = 0, wall = 0;
         for (body_range& r : ranges_) {
-            r.first_row = row, r.first_shared = shared, r.first_wall = wall;
-            for (std::size_t b = r.first_body; b < r.last_body; ++b) {
-                while (row < n && grains.body_of(slow_.pairs[row].i) == b) ++row;
-                while (shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) == b) ++shared;
-                while (wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == b) ++wall;
-                own_end_[b] = static_cast<std::uint32_t>(row);
-            }
-            r.last_row = row;
+            while (shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) < r.first_body) ++shared;
+            while (wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) < r.first_body) ++wall;
+            r.first_shared = shared, r.first_wall = wall;
+            r.first_row = end_of(r.first_body), r.last_row = end_of(r.last_body);
         }
         for (std::uint32_t k = 0; k < slow_shared_; ++k)
             ranges_[range_of[grains.body_of(slow_.pairs[k].j)]].incoming.push_back(k);
         if constexpr (periodic) {
-            across_.clear(), across_order_.clear();
+            across_.clear();
             for (std::uint32_t k = 0; k < n; ++k)
                 if (slow_.image[k] != no_shift) across_.push_back(k);
             across_force_.assign(across_.size(), {});
-            each_slow([&](std::size_t k) {
-                if (slow_.image[k] != no_shift)
-                    across_order_.push_back(static_cast<std::uint32_t>(
-                        std::lower_bound(across_.begin(), across_.end(), k) - across_.begin()));
-            });
+            across_order_.resize(across_.size());
+            std::iota(across_order_.begin(), across_order_.end(), 0U);
+            if (!slow_order_.empty())
+                std::sort(across_order_.begin(), across_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+                    return slow_order_[across_[a]] < slow_order_[across_[b]];
+                });
         }
     }
     /// Back to one sorted list, as if there had been one thread.
