@@ -115,9 +115,10 @@ template <class History> struct contact_list {
         if constexpr (remembers) {
             std::size_t k = 0;
             for (std::size_t was = 0; was < old.size(); ++was) {
-                while (k < size() && before(pairs[k], old.pairs[was])) ++k;
+                while (k < size() && pairs[k] != old.pairs[was] && before(pairs[k], old.pairs[was])) ++k;
                 if (k == size()) return;
-                if (pairs[k] == old.pairs[was]) history[k] = old.history[was];
+                if (pairs[k] == old.pairs[was])
+                    history[k++] = old.history[was]; // as a rule the next two are equal, too
             }
         }
     }
