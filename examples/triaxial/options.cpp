@@ -307,7 +307,7 @@ options checked_options(const raw& r) {
                                              "1 is the specimen of the paper, 0.4 a quick test.");
     if (!r.strain.empty())
         o.strain = checked<quantities::ratio>(r.strain, "--strain", 0.0, 0.5, false, "more than 0, up to 50%",
-                                              "The paper goes to 25%.");
+                                              "The paper goes to 25%; 25 without % would be 2500 %.");
     if (!r.inertial_number.empty())
         o.inertial_number = checked<quantities::ratio>(
             r.inertial_number, "--inertial-number", 0.0, 0.1, false, "more than 0, up to 0.1",

@@ -449,7 +449,8 @@ template <triaxial_policies P> class engine {
     vec3 apart(const contact_list<history>& list, std::size_t k) const {
         const pebble_pair& p = list.pairs[k];
         const vec3 d = grains.pebbles[at(p.j)].x - grains.pebbles[at(p.i)].x;
-        if constexpr (periodic) return d + image_shift(list.image[k], boundary.edges());
+        if constexpr (periodic)
+            if (list.image[k] != no_shift) return d + image_shift(list.image[k], boundary.edges());
         return d;
     }
 
