@@ -12,9 +12,8 @@ namespace clast {
 /// stated.
 constexpr double damping_force(double force, double velocity, double a) {
     // no branch: signs of velocities at rest are as good as random, and would be guessed wrong
-    const double size = force < 0.0 ? -force : force;
-    const double sign = static_cast<double>(velocity > 0.0) - static_cast<double>(velocity < 0.0);
-    return -a * size * sign;
+    const double sign = velocity != 0.0 ? __builtin_copysign(1.0, velocity) : 0.0;
+    return -a * __builtin_fabs(force) * sign;
 }
 
 /// Local damping of a body's unbalanced force (N) by the components of its velocity (m/s) in the world frame, to be
