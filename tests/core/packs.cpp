@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <clast/core/packs.hpp>
 
+#include <array>
+#include <type_traits>
 #include <vector>
 
 #include <catch.hpp>
@@ -47,4 +49,35 @@ TEST_CASE("four columns become four records") {
         for (std::size_t c = 0; c < 4; ++c) CHECK(v[c] == value(r, c));
     });
     CHECK(order == std::vector<std::size_t>{0, 1, 2, 3});
+}
+
+TEST_CASE("the vectors of a block of records become columns, with and without the fourth number") {
+    double records[4][8];
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t i = 0; i < 8; ++i) records[r][i] = value(r, i);
+    const auto check = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
+        std::array<const std::byte*, N> at;
+        for (std::size_t r = 0; r < N; ++r) at[r] = reinterpret_cast<const std::byte*>(records[3 - r]);
+        double three[3][N], four[4][N];
+        transpose(at, 4 * sizeof(double), three[0], three[1], three[2]);
+        transpose(at, 1 * sizeof(double), four[0], four[1], four[2], four[3]);
+        for (std::size_t r = 0; r < N; ++r) {
+            for (std::size_t c = 0; c < 3; ++c) CHECK(three[c][r] == value(3 - r, 4 + c));
+            for (std::size_t c = 0; c < 4; ++c) CHECK(four[c][r] == value(3 - r, 1 + c));
+        }
+    };
+    check(std::integral_constant<std::size_t, 2>{});
+    check(std::integral_constant<std::size_t, 4>{});
+}
+
+TEST_CASE("a quad holds four numbers in order and takes the fourth of another") {
+    const double numbers[4] = {5.0, 6.0, 7.0, 8.0};
+    const quad a(1.0, 2.0, 3.0, 4.0), b = a.with_fourth_of(quad::load(numbers));
+    double stored[4];
+    b.store(stored);
+    for (std::size_t k = 0; k < 4; ++k) {
+        CHECK(a[k] == static_cast<double>(k + 1));
+        CHECK(b[k] == (k < 3 ? a[k] : 8.0));
+        CHECK(stored[k] == b[k]);
+    }
 }

@@ -40,7 +40,7 @@ std::vector<clump> scene(std::size_t n) {
 }
 
 clump_strip strip_of(const std::vector<clump>& all, std::size_t begin, std::size_t end) {
-    clump_strip s;
+    clump_strip s{};
     s.size = end - begin;
     for (std::size_t k = 0; k < s.size; ++k) {
         const clump& c = all[begin + k];

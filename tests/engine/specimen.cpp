@@ -2,7 +2,10 @@
 #include <clast/engine/specimen.hpp>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
+#include <clast/core/random.hpp>
 #include <clast/io/archive.hpp>
 
 #include <catch.hpp>
@@ -55,4 +58,66 @@ TEST_CASE("a specimen comes back from an archive") {
     CHECK(checksum(copy) == checksum(s));
     CHECK(copy.turning[0].l == s.turning[0].l);
     CHECK(copy.pebble_count() == 14);
+}
+
+TEST_CASE("clumps move as one alone, however many move together, and their wanted pebbles follow") {
+    specimen s;
+    s.shapes = {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.03)};
+    random_stream random{5, 1};
+    const auto any = [&](double size) { return uniform(random, 0.0, size) * direction(random); };
+    constexpr std::size_t n = 23; // a whole strip, a whole block of four, and three more
+    std::vector<moving_body> bodies;
+    std::vector<specimen::reference> since;
+    body_items wanted{{0}, {}};
+    for (std::size_t g = 0; g < n; ++g) {
+        s.add(g % 3 == 0 ? 1 : 0, any(1.0), orientation(random));
+        since.push_back(s.refer(g));
+        s.motion[g].x += any(1e-4), s.motion[g].v = any(0.1);
+        s.turning[g].l = 1e-7 * direction(random);
+        s.motion[g].w = spin_of(s.turning[g].q, s.turning[g].l, s.inverse_inertia(s.grains[g]));
+        bodies.push_back({n - 1 - g, {any(10.0), any(0.1), 0.25 * static_cast<double>(g)}});
+        for (std::size_t p = s.pebbles_of(g).begin; p < s.pebbles_of(g).end; p += 2)
+            wanted.items.push_back(static_cast<std::int32_t>(p));
+        wanted.start.push_back(static_cast<std::uint32_t>(wanted.items.size()));
+    }
+    const double h = 1e-5, damping = 0.7;
+    const vec3 stretch{1.001, 0.999, 1.0};
+    const auto further = [](std::size_t g) { return 1e-3 * static_cast<double>(g); };
+    const auto move = [&](specimen& some, std::span<const moving_body> which) {
+        return some.advance(which, h, damping, wanted, since, stretch, further);
+    };
+    specimen together = s, alone = s;
+    const double moved = move(together, bodies);
+    double most = 0.0;
+    for (const moving_body& one : bodies) {
+        const double way = move(alone, {&one, 1});
+        const body_motion &old = s.motion[one.body], &now = alone.motion[one.body];
+        CHECK(norm(now.x - (old.x + h * now.v)) < 1e-15);
+        CHECK(alone.losses[one.body].friction == one.load.dissipated);
+        CHECK(way >= norm(now.x - scale(stretch, since[one.body].centre)) + further(one.body));
+        most = std::max(most, way);
+        // kick and turn, as in tests/engine/clump_strip.cpp
+        const quaternion q = s.turning[one.body].q;
+        const vec3 df = damping_force(one.load.force, old.v, damping);
+        const vec3 l =
+            s.turning[one.body].l + h * (one.load.moment + damping_moment(q, one.load.moment, old.w, damping));
+        const double inverse_mass = 1.0 / s.mass_of(s.grains[one.body]);
+        CHECK(norm(now.v - (old.v + (h * inverse_mass) * (one.load.force + df))) <= 1e-14 * norm(now.v));
+        CHECK(norm(alone.turning[one.body].l - l) <= 1e-13 * norm(l));
+        CHECK(norm(now.w - advance_rotation(q, l, s.inverse_inertia(s.grains[one.body]), h).spin) <=
+              1e-12 * norm(now.w));
+        // every other pebble is placed, the others stay
+        const std::size_t first = s.pebbles_of(one.body).begin;
+        for (std::size_t p = first; p < s.pebbles_of(one.body).end; ++p) {
+            const shape_pebble& own = s.shape_of(s.grains[one.body]).pebbles[p - first];
+            const vec3 there = now.x + rotate(alone.turning[one.body].q, own.offset);
+            CHECK(norm(alone.pebbles[p].x - ((p - first) % 2 == 0 ? there : s.pebbles[p].x)) < 1e-15);
+            CHECK(alone.pebbles[p].radius == own.radius);
+        }
+    }
+    CHECK(moved == most);
+    CHECK(checksum(together) == checksum(alone));
+
+    together.motion[7].v.x = std::numeric_limits<double>::quiet_NaN();
+    CHECK(std::isinf(move(together, bodies)));
 }

@@ -64,15 +64,34 @@ template <std::size_t N> class pack_columns {
     lane even_, odd_; ///< of records 0, 2 and 1, 3 (or 0 and 1)
 };
 
+/// The vectors that stand `at` bytes behind the beginning of N records, as columns; a fourth number must follow them.
+template <std::size_t N>
+[[gnu::always_inline]] inline void transpose(const std::array<const std::byte*, N>& record, std::size_t at, double* x,
+                                             double* y, double* z) {
+    const pack_columns<N> xy(record, at), zw(record, at + 2 * sizeof(double));
+    xy.first(x), xy.second(y), zw.first(z);
+}
+/// The same with the fourth number.
+template <std::size_t N>
+[[gnu::always_inline]] inline void transpose(const std::array<const std::byte*, N>& record, std::size_t at, double* x,
+                                             double* y, double* z, double* w) {
+    const pack_columns<N> xy(record, at), zw(record, at + 2 * sizeof(double));
+    xy.first(x), xy.second(y), zw.first(z), zw.second(w);
+}
+
 /// Four doubles with elementwise arithmetic, in as many registers as the target needs.
 class quad {
   public:
     quad() = default;
     [[gnu::always_inline]] quad(double x, double y, double z, double w) {
-        const double v[4] = {x, y, z, w};
-        std::memcpy(part_, v, sizeof v);
+        // in registers: what goes through memory in pieces is waited for when it is loaded as a whole
+#if defined(__AVX__)
+        part_[0] = pack{x, y, z, w};
+#else
+        part_[0] = pack{x, y}, part_[1] = pack{z, w};
+#endif
     }
-    [[gnu::always_inline]] static quad load(const double* from) {
+    [[gnu::always_inline]] static quad load(const void* from) {
         quad q;
         std::memcpy(q.part_, from, sizeof q.part_);
         return q;
@@ -93,10 +112,14 @@ class quad {
         for (std::size_t k = 0; k < parts; ++k) a.part_[k] *= s;
         return a;
     }
-    /// The same with another fourth number.
-    [[gnu::always_inline]] quad with_fourth(double w) const {
+    /// The same with the fourth number of another.
+    [[gnu::always_inline]] quad with_fourth_of(const quad& b) const {
         quad q = *this;
-        q.part_[parts - 1][pack_size - 1] = w;
+#if defined(__AVX__)
+        q.part_[0] = __builtin_shufflevector(part_[0], b.part_[0], 0, 1, 2, 7);
+#else
+        q.part_[1] = __builtin_shufflevector(part_[1], b.part_[1], 0, 3);
+#endif
         return q;
     }
 

@@ -13,26 +13,27 @@
 
 namespace clast {
 
-/// State, load and result of up to 16 clumps. Lanes are computed by eights, whatever stands in those that are not used.
+/// State, load and result of up to 16 clumps. Lanes are computed by eights, so those that are not used must hold
+/// numbers, too, whichever.
 struct clump_strip {
     static constexpr std::size_t length = 16;
     using row = double[length];
 
     std::size_t size = 0;
-    alignas(64) row fx{}, fy{}, fz{};             ///< force (N)
-    row mx{}, my{}, mz{};                         ///< moment about the centre (N m)
-    row x{}, y{}, z{}, vx{}, vy{}, vz{};          ///< centre (m) and its velocity (m/s)
-    row wx{}, wy{}, wz{};                         ///< spin of the last step, then of this one (rad/s)
-    row lx{}, ly{}, lz{};                         ///< angular momentum (kg m^2/s)
-    row qw{}, qx{}, qy{}, qz{};                   ///< orientation before
-    row nw{}, nx{}, ny{}, nz{};                   ///< and after the step
-    row inverse_mass{}, ix{}, iy{}, iz{};         ///< 1/kg, and 1/(kg m^2) in the body's axes
-    row cx{}, cy{}, cz{}, tw{}, tx{}, ty{}, tz{}; ///< centre (m) and orientation from which displacements count
-    row reach{};                                  ///< radius of the circumscribed sphere (m)
-    row damped{};                                 ///< energy lost to damping (J)
-    row angle2{};                                 ///< upper bound of the squared angle of the step (rad^2)
-    row r00{}, r01{}, r02{}, r10{}, r11{}, r12{}, r20{}, r21{}, r22{}; ///< matrix of the new orientation
-    row moved{};                                                       ///< largest way of a point of the clump (m)
+    alignas(64) row fx, fy, fz;                      ///< force (N)
+    row mx, my, mz;                                  ///< moment about the centre (N m)
+    row x, y, z, vx, vy, vz;                         ///< centre (m) and its velocity (m/s)
+    row wx, wy, wz;                                  ///< spin of the last step, then of this one (rad/s)
+    row lx, ly, lz;                                  ///< angular momentum (kg m^2/s)
+    row qw, qx, qy, qz;                              ///< orientation before
+    row nw, nx, ny, nz;                              ///< and after the step
+    row inverse_mass, ix, iy, iz;                    ///< 1/kg, and 1/(kg m^2) in the body's axes
+    row cx, cy, cz, tw, tx, ty, tz;                  ///< centre (m) and orientation from which displacements count
+    row reach;                                       ///< radius of the circumscribed sphere (m)
+    row damped;                                      ///< energy lost to damping (J)
+    row angle2;                                      ///< upper bound of the squared angle of the step (rad^2)
+    row r00, r01, r02, r10, r11, r12, r20, r21, r22; ///< matrix of the new orientation
+    row moved;                                       ///< largest way of a point of the clump (m)
 
     std::size_t lanes() const { return whole_lanes(size); }
 };

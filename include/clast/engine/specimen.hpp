@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -29,10 +30,11 @@ struct grain {
     std::int32_t cluster = -1; ///< number in the cluster pool of its shape once replaced; -1 while it is a clump
 };
 
-/// Orientation and angular momentum of a clump (world axes).
-struct clump_rotation {
+/// Orientation and angular momentum of a clump (world axes), in blocks of four numbers like its motion.
+struct alignas(32) clump_rotation {
     quaternion q;
     vec3 l; ///< kg m^2/s
+    double spare = 0.0;
 };
 
 /// Energy that a body has lost so far (J).
@@ -86,8 +88,10 @@ struct specimen {
     /// What all clumps of one shape have in common; made with the first grain of it, so shapes and density must not
     /// change after that.
     struct constants {
-        double mass, inverse_mass; ///< kg
-        vec3 inverse_inertia;      ///< 1/(kg m^2), body axes
+        vec3 inverse_inertia; ///< 1/(kg m^2), body axes
+        double inverse_mass;  ///< 1/kg
+        double reach;         ///< radius of the circumscribed sphere (m)
+        double mass;          ///< kg
     };
     std::vector<constants> of_shape;
 
@@ -115,7 +119,7 @@ struct specimen {
         for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
             const double m = density * shapes[k].volume;
             const vec3 i = density * shapes[k].inertia_per_density;
-            of_shape.push_back({m, 1.0 / m, {1.0 / i.x, 1.0 / i.y, 1.0 / i.z}});
+            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
         }
         grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
         for (const shape_pebble& p : s.pebbles) {
@@ -134,9 +138,10 @@ struct specimen {
     static constexpr bool turns = true; ///< bodies have an orientation
 
     /// What displacements are measured from: centre and orientation at the last renewal of the lists.
-    struct reference {
-        vec3 centre;
+    struct alignas(32) reference {
         quaternion q;
+        vec3 centre;
+        double spare = 0.0;
     };
 
     std::size_t body_count() const { return grains.size(); }
@@ -168,7 +173,7 @@ struct specimen {
         return 0.5 * mass_of(grains[g]) * norm2(motion[g].v) +
                rotational_energy(turning[g].q, turning[g].l, inverse_inertia(grains[g]));
     }
-    reference refer(std::size_t g) const { return {motion[g].x, turning[g].q}; }
+    reference refer(std::size_t g) const { return {turning[g].q, motion[g].x}; }
     /// Moves bodies by one step h (s) under their loads, with local damping of force and moment (in the body frame),
     /// and places those of their pebbles that are `wanted`. since: where displacements count from, per body; stretch:
     /// of the space between then and now. further(body): way (m) to be added to the displacement of a body. Returns the
@@ -178,32 +183,33 @@ struct specimen {
                    std::span<const reference> since, const vec3& stretch, Further&& further) {
         double most = 0.0;
         clump_strip s;
-        for (std::size_t from = 0; from < bodies.size(); from += clump_strip::length) {
-            s.size = std::min(clump_strip::length, bodies.size() - from);
-            for (std::size_t k = 0; k < s.size; ++k) {
-                const moving_body& one = bodies[from + k];
-                fill(s, k, one.body, one.load, since[one.body], stretch);
-            }
+        for (; !bodies.empty(); bodies = bodies.subspan(s.size)) {
+            s.size = std::min(clump_strip::length, bodies.size());
+            fill(s, bodies.data(), since.data(), stretch);
             clast::advance(s, h, damping);
-            for (std::size_t k = 0; k < s.size; ++k) {
-                const std::size_t g = bodies[from + k].body;
-                losses[g].damping += s.damped[k];
-                losses[g].friction += bodies[from + k].load.dissipated;
-                motion[g] = {{s.x[k], s.y[k], s.z[k]}, {s.vx[k], s.vy[k], s.vz[k]}, {s.wx[k], s.wy[k], s.wz[k]}};
-                turning[g] = {{s.nw[k], s.nx[k], s.ny[k], s.nz[k]}, {s.lx[k], s.ly[k], s.lz[k]}};
-                const mat3 turn{
-                    {{s.r00[k], s.r01[k], s.r02[k]}, {s.r10[k], s.r11[k], s.r12[k]}, {s.r20[k], s.r21[k], s.r22[k]}}};
-                const placement to(motion[g], turn, shape_of(grains[g]), grains[g].first);
-                for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
-                const double moved = s.moved[k] + further(g);
-                most = std::max(most, std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity());
+            for (std::size_t k = 0; k < s.size; k += 4) {
+                axes_of_four axes;
+                take(s, k, bodies.data(), axes);
+                for (std::size_t l = 0; l < 4 && k + l < s.size; ++l) {
+                    const moving_body& one = bodies[k + l];
+                    const std::size_t g = one.body;
+                    losses[g].damping += s.damped[k + l];
+                    losses[g].friction += one.load.dissipated;
+                    const placement to(motion[g], axes[l], shape_of(grains[g]), grains[g].first);
+                    for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
+                    const double moved = s.moved[k + l] + further(g);
+                    most = std::max(most, std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity());
+                }
             }
         }
         return most;
     }
     /// Places those pebbles of a clump for which chosen(pebble).
     template <class F> void place(std::size_t g, F&& chosen) {
-        const placement to(motion[g], matrix(turning[g].q), shape_of(grains[g]), grains[g].first);
+        const mat3 m = matrix(turning[g].q);
+        const double axes[3][4] = {
+            {m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
+        const placement to(motion[g], axes, shape_of(grains[g]), grains[g].first);
         const index_range all = pebbles_of(g);
         for (std::size_t p = all.begin; p < all.end; ++p)
             if (chosen(p)) to.put(static_cast<std::int32_t>(p), pebbles[p]);
@@ -224,39 +230,71 @@ struct specimen {
     /// Where the pebbles of a clump are: x = X + R o, by columns of R.
     class placement {
       public:
-        placement(const body_motion& m, const mat3& turn, const shape& s, std::int32_t first)
-            : pebbles_(s.pebbles.data()), first_(first), x_(m.x.x, m.x.y, m.x.z, 0.0) {
-            for (int a = 0; a < 3; ++a) turn_[a] = quad(turn(0, a), turn(1, a), turn(2, a), 0.0);
-        }
+        placement(const body_motion& m, const double (&axes)[3][4], const shape& s, std::int32_t first)
+            : pebbles_(s.pebbles.data()), first_(first),
+              x_(quad::load(&m)), axes_{quad::load(axes[0]), quad::load(axes[1]), quad::load(axes[2])} {}
         void put(std::int32_t p, clump_pebble& to) const {
             const vec3& o = pebbles_[p - first_].offset;
-            const quad x = x_ + (o.x * turn_[0] + o.y * turn_[1] + o.z * turn_[2]);
-            x.with_fourth(to.radius).store(reinterpret_cast<std::byte*>(&to));
+            const quad x = x_ + (o.x * axes_[0] + o.y * axes_[1] + o.z * axes_[2]);
+            x.with_fourth_of(quad::load(&to)).store(&to);
         }
 
       private:
         const shape_pebble* pebbles_;
         std::int32_t first_;
-        quad x_, turn_[3];
+        quad x_, axes_[3];
     };
-    void fill(clump_strip& s, std::size_t k, std::size_t g, const load_sum& load, const reference& since,
-              const vec3& stretch) const {
-        const body_motion& m = motion[g];
-        const clump_rotation& t = turning[g];
-        const constants& c = of_shape[static_cast<std::size_t>(grains[g].shape)];
-        s.fx[k] = load.force.x, s.fy[k] = load.force.y, s.fz[k] = load.force.z;
-        s.mx[k] = load.moment.x, s.my[k] = load.moment.y, s.mz[k] = load.moment.z;
-        s.x[k] = m.x.x, s.y[k] = m.x.y, s.z[k] = m.x.z;
-        s.vx[k] = m.v.x, s.vy[k] = m.v.y, s.vz[k] = m.v.z;
-        s.wx[k] = m.w.x, s.wy[k] = m.w.y, s.wz[k] = m.w.z;
-        s.lx[k] = t.l.x, s.ly[k] = t.l.y, s.lz[k] = t.l.z;
-        s.qw[k] = t.q.w, s.qx[k] = t.q.x, s.qy[k] = t.q.y, s.qz[k] = t.q.z;
-        s.inverse_mass[k] = c.inverse_mass;
-        s.ix[k] = c.inverse_inertia.x, s.iy[k] = c.inverse_inertia.y, s.iz[k] = c.inverse_inertia.z;
-        s.cx[k] = stretch.x * since.centre.x, s.cy[k] = stretch.y * since.centre.y,
-        s.cz[k] = stretch.z * since.centre.z;
-        s.tw[k] = since.q.w, s.tx[k] = since.q.x, s.ty[k] = since.q.y, s.tz[k] = since.q.z;
-        s.reach[k] = bounding_radius(g);
+    /// Fills a strip whose size is set with bodies and where displacements count from; unused lanes repeat the last
+    /// body.
+    void fill(clump_strip& s, const moving_body* bodies, const reference* since, const vec3& stretch) const {
+        const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
+        constexpr std::size_t block = sizeof(quad);
+        for (std::size_t k = 0; k < s.lanes(); k += pack_size) {
+            std::array<const std::byte*, pack_size> load, move, turn, then, common;
+            for (std::size_t l = 0; l < pack_size; ++l) {
+                const moving_body& one = bodies[std::min(k + l, s.size - 1)];
+                const std::size_t g = one.body;
+                load[l] = bytes(one.load), move[l] = bytes(motion[g]), turn[l] = bytes(turning[g]);
+                then[l] = bytes(since[g]), common[l] = bytes(of_shape[static_cast<std::size_t>(grains[g].shape)]);
+            }
+            transpose(load, 0, s.fx + k, s.fy + k, s.fz + k);
+            transpose(load, offsetof(load_sum, moment), s.mx + k, s.my + k, s.mz + k);
+            transpose(move, 0, s.x + k, s.y + k, s.z + k);
+            transpose(move, block, s.vx + k, s.vy + k, s.vz + k);
+            transpose(move, 2 * block, s.wx + k, s.wy + k, s.wz + k);
+            transpose(turn, 0, s.qw + k, s.qx + k, s.qy + k, s.qz + k);
+            transpose(turn, block, s.lx + k, s.ly + k, s.lz + k);
+            transpose(then, 0, s.tw + k, s.tx + k, s.ty + k, s.tz + k);
+            transpose(then, block, s.cx + k, s.cy + k, s.cz + k);
+            transpose(common, 0, s.ix + k, s.iy + k, s.iz + k, s.inverse_mass + k);
+            pack_columns<pack_size>(common, block).first(s.reach + k);
+            for (std::size_t l = k; l < k + pack_size; ++l)
+                s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
+        }
+    }
+    /// Columns of the matrices of four orientations, with a spare number each.
+    using axes_of_four = double[4][3][4];
+    /// Takes the new state of up to four bodies from place k of a strip on.
+    void take(const clump_strip& s, std::size_t k, const moving_body* bodies, axes_of_four& axes) {
+        static constexpr double nothing[4] = {};
+        const auto each = [&](auto& records, std::size_t block, const double* a, const double* b, const double* c,
+                              const double* d) {
+            transpose(a, b, c, d, [&](std::size_t l, const quad& v) {
+                if (k + l < s.size) v.store(reinterpret_cast<std::byte*>(&records[bodies[k + l].body]) + block);
+            });
+        };
+        constexpr std::size_t block = sizeof(quad);
+        each(motion, 0, s.x + k, s.y + k, s.z + k, nothing);
+        each(motion, block, s.vx + k, s.vy + k, s.vz + k, nothing);
+        each(motion, 2 * block, s.wx + k, s.wy + k, s.wz + k, nothing);
+        each(turning, 0, s.nw + k, s.nx + k, s.ny + k, s.nz + k);
+        each(turning, block, s.lx + k, s.ly + k, s.lz + k, nothing);
+        const auto column = [&](std::size_t c, const double* x, const double* y, const double* z) {
+            transpose(x, y, z, nothing, [&](std::size_t l, const quad& v) { v.store(axes[l][c]); });
+        };
+        column(0, s.r00 + k, s.r10 + k, s.r20 + k);
+        column(1, s.r01 + k, s.r11 + k, s.r21 + k);
+        column(2, s.r02 + k, s.r12 + k, s.r22 + k);
     }
 };
 
