@@ -53,3 +53,13 @@ TEST_CASE("lanes: eight vectors at once give what one vector gives") {
     sum += y;
     same(sum, [](vec3 p, vec3 q) { return p + q; });
 }
+
+TEST_CASE("lanes: eight zeros are told from anything else") {
+    std::array<double, 9> a{};
+    CHECK(all_zero8(a.data() + 1));
+    for (std::size_t l = 0; l < lanes; ++l) {
+        a[l + 1] = l % 2 == 0 ? 1e-300 : -1.0;
+        CHECK_FALSE(all_zero8(a.data() + 1));
+        a[l + 1] = 0.0;
+    }
+}

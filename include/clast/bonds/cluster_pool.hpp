@@ -134,8 +134,9 @@ class cluster_pool {
             }
         }
         for (std::size_t b = 0; b < m; ++b) {
-            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             double* const s = values_.data() + base(batch, b);
+            if (all_zero8(s + alive * lanes)) continue;
+            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             const vec3x8 d = load3x8(u + j) - load3x8(u + i);
             const vec3x8 normal = ratio(lane8{} + 1.0, root(norm2(d))) * d; // zero in lanes without a cluster
             state_x8 bond{{}, load3x8(s + shear * lanes), {}, load3x8(s + bending * lanes)};
@@ -222,10 +223,11 @@ class cluster_pool {
         lane8 worst = lane8{} - 1.0;
         const lane8 strength = load8(strength_.data() + batch * lanes);
         for (std::size_t b = 0; b < m; ++b) {
+            double* const s = values_.data() + base(batch, b);
+            if (all_zero8(s + alive * lanes)) continue; // in the end most bonds are broken
             const constants& c = shape_.bond[b];
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             const double ra = shape_.arm[b].a, rb = shape_.arm[b].b;
-            double* const s = values_.data() + base(batch, b);
             const vec3x8 normal = load3x8(axis + b * 3 * lanes), wa = load3x8(w + i), wb = load3x8(w + j);
             state_x8 bond{load8(s), load3x8(s + shear * lanes), load8(s + twist * lanes), load3x8(s + bending * lanes)};
             const lane8 step = h * load8(s + alive * lanes);

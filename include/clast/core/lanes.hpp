@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include <clast/core/vector.hpp>
@@ -37,6 +38,13 @@ inline lane8 load8(const double* p) {
     return v;
 }
 inline void store8(double* p, const lane8& v) { std::memcpy(p, &v, sizeof v); }
+/// Whether eight numbers in memory are all 0 (and not -0).
+inline bool all_zero8(const double* p) {
+    std::uint64_t word[lanes], bits = 0;
+    std::memcpy(word, p, sizeof word);
+    for (std::size_t l = 0; l < lanes; ++l) bits |= word[l];
+    return bits == 0;
+}
 
 /// Larger of two, absolute value and sign (0 for 0), for one number or for lanes.
 inline double larger(double a, double b) { return a > b ? a : b; }
