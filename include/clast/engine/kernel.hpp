@@ -84,10 +84,6 @@ template <class Law, class View>
             const columns xy = columns(b, at) - columns(a, at), zw = columns(b, at + 16) - columns(a, at + 16);
             xy.first(x + k), xy.second(y + k), zw.first(z + k);
         };
-        const auto copy = [&](const records& a, std::size_t at, double* x, double* y, double* z) {
-            const columns xy(a, at), zw(a, at + 16);
-            xy.first(x + k), xy.second(y + k), zw.first(z + k);
-        };
         constexpr std::size_t centre = 0, velocity = 32, spin = 64; // bytes, in pebble_motion and in body_motion
         records pi, pj, bi, bj;
         for (std::size_t l = 0; l < pack_size; ++l) {
@@ -102,8 +98,8 @@ template <class Law, class View>
         columns(pi, centre + 16).second(s.radius_i + k);
         columns(pj, centre + 16).second(s.radius_j + k);
         difference(bi, bj, velocity, s.vx, s.vy, s.vz);
-        copy(bi, spin, s.ix, s.iy, s.iz);
-        copy(bj, spin, s.jx, s.jy, s.jz);
+        transpose(bi, spin, s.ix + k, s.iy + k, s.iz + k);
+        transpose(bj, spin, s.jx + k, s.jy + k, s.jz + k);
         if constexpr (strip<Law, View>::has_arms) {
             difference(bi, pi, centre, s.aix, s.aiy, s.aiz);
             difference(bj, pj, centre, s.ajx, s.ajy, s.ajz);
