@@ -13,6 +13,12 @@ using namespace clast;
 
 namespace {
 struct nothing {};
+/// Calls f for the numbers of all contacts of a list, as it stands.
+auto each_of(const pair_list& list) {
+    return [&list](auto&& f) {
+        for (std::size_t k = 0; k < list.size(); ++k) f(k);
+    };
+}
 } // namespace
 
 TEST_CASE("a law without history costs no memory per contact") {
@@ -44,8 +50,16 @@ TEST_CASE("histories move to the pairs that both lists have, in any order they s
     list.pairs = {{0, 2}, {1, 2}, {2, 4}, {4, 5}, {0, 9}, {1, 9}};
     old.resize(), list.resize();
     for (std::size_t k = 0; k < old.size(); ++k) old.history[k].x = static_cast<double>(k + 1);
-    list.take_histories(old, by_second);
+    list.take_histories(old, by_second, each_of(old));
     const std::vector<double> expected = {2, 3, 0, 0, 5, 0};
+    for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.history[k].x == expected[k]);
+
+    // the old list stands in another order, and is read in that of the new one
+    const std::vector<std::uint32_t> order = {3, 0, 4, 1, 2};
+    old.reorder(order), list.resize();
+    list.take_histories(old, by_second, [](auto&& f) {
+        for (std::size_t k : {1U, 3U, 4U, 0U, 2U}) f(k);
+    });
     for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.history[k].x == expected[k]);
 }
 
@@ -97,7 +111,8 @@ TEST_CASE("every body is given its rows in the order of the list, with pebble an
     };
     const std::vector<wall_contact> wall = {{5}, {0}};
     const std::vector<std::size_t> owner = {0, 1, 2, 3, 4, 4}; // pebbles 4 and 5 are one body
-    incidence of_body(5, list, wall, [&](std::int32_t p) { return owner[static_cast<std::size_t>(p)]; });
+    const auto body_of = [&](std::int32_t p) { return owner[static_cast<std::size_t>(p)]; };
+    incidence of_body(5, list, each_of(list), wall, body_of);
     struct expected {
         std::size_t row;
         std::int32_t pebble;
@@ -121,7 +136,12 @@ TEST_CASE("every body is given its rows in the order of the list, with pebble an
     // the list is put in another order: sums keep theirs
     const std::vector<std::uint32_t> order = {2, 0, 1, 3};
     list.reorder(order);
-    of_body.renumber(order);
+    of_body = incidence(
+        5, list,
+        [](auto&& f) {
+            for (std::size_t k : {1U, 2U, 0U, 3U}) f(k);
+        },
+        wall, body_of);
     CHECK(list.pairs == std::vector<pebble_pair>{{1, 2}, {0, 1}, {0, 2}, {2, 5}});
     CHECK((rows(0) == std::vector<expected>{{1, 0, 1.0}, {2, 0, 1.0}, {5, 0, 1.0}}));
     CHECK((rows(2) == std::vector<expected>{{2, 2, -1.0}, {0, 2, -1.0}, {3, 2, 1.0}}));

@@ -41,7 +41,8 @@ template <class T> struct response {
 /// A law declares its `history` (trivially copyable; empty if it has none) and answers to geometry and motion. It is
 /// asked about listed pairs that do not touch (depth <= 0), too: their force is dropped, their history and losses
 /// count. `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the time-step estimate and the
-/// servo.
+/// servo. A law whose stiffnesses do not depend on the overlap may say so, `static constexpr bool constant_stiffness =
+/// true`: the estimate is cheaper then.
 template <class L>
 concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename L::history> &&
     std::default_initializable<typename L::history> &&

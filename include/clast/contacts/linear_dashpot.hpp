@@ -25,6 +25,7 @@ struct linear_dashpot {
     double mass = 0.0;    ///< of every grain (kg); 0: from density and radius
 
     using history = shear_history;
+    static constexpr bool constant_stiffness = true;
 
     template <class T> response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double dt) const {
         const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;

@@ -38,6 +38,15 @@ struct clump_strip {
     std::size_t lanes() const { return whole_lanes(size); }
 };
 
+/// Upper bound (m) of the way of a point of a body that has moved by `by` (m) and turned from one orientation to
+/// another; reach: radius around the centre that holds all its points (m).
+[[gnu::always_inline]] inline double way_of(const vec3& by, const quaternion& from, const quaternion& to,
+                                            double reach) {
+    const quaternion d = conjugate(from) * to;
+    const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
+    return norm(by) + reach * turned_by;
+}
+
 namespace detail {
 
 /// Kick and drift of lane k over h (s) with local damping; `advance_rotation` for steps of small angle.
@@ -70,10 +79,8 @@ namespace detail {
 /// Matrix of the new orientation, and how far the clump has moved.
 [[gnu::always_inline, gnu::flatten]] inline void finish_lane(clump_strip& s, std::size_t k) {
     const quaternion q{s.nw[k], s.nx[k], s.ny[k], s.nz[k]};
-    const quaternion d = conjugate(quaternion{s.tw[k], s.tx[k], s.ty[k], s.tz[k]}) * q;
-    const double turned_by = 2.0 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z); // chord of a unit radius
-    const double dx = s.x[k] - s.cx[k], dy = s.y[k] - s.cy[k], dz = s.z[k] - s.cz[k];
-    s.moved[k] = std::sqrt(dx * dx + dy * dy + dz * dz) + s.reach[k] * turned_by;
+    const vec3 by{s.x[k] - s.cx[k], s.y[k] - s.cy[k], s.z[k] - s.cz[k]};
+    s.moved[k] = way_of(by, {s.tw[k], s.tx[k], s.ty[k], s.tz[k]}, q, s.reach[k]);
     const mat3 m = matrix(q);
     s.r00[k] = m.row[0].x, s.r01[k] = m.row[0].y, s.r02[k] = m.row[0].z;
     s.r10[k] = m.row[1].x, s.r11[k] = m.row[1].y, s.r12[k] = m.row[1].z;

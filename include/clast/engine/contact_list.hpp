@@ -87,39 +87,52 @@ constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
     return scale(edges, {steps(image % 3), steps(image / 3 % 3), steps(image / 9)});
 }
 
-/// Half list of contacts. An engine sorts it and may bring contacts that threads share to the front. An empty history
-/// (frictionless law) takes no memory; rows are there after a step that was asked for them, and empty otherwise.
-template <class History> struct contact_list {
-    static constexpr bool remembers = !std::is_empty_v<History>;
-
+/// Half list of pairs.
+struct pair_list {
     std::vector<pebble_pair> pairs;
-    std::vector<History> history;    ///< empty if the law has none
     std::vector<std::uint8_t> image; ///< in a periodic cell: which image of j is meant (image_shift); else empty
-    std::vector<force_row> rows;
 
     std::size_t size() const { return pairs.size(); }
+    /// Adds a pair in its place, of a list without images that is sorted by `before`; returns the place.
+    template <class Order> std::ptrdiff_t insert(const pebble_pair& p, Order&& before) {
+        const auto k = std::lower_bound(pairs.begin(), pairs.end(), p, before) - pairs.begin();
+        pairs.insert(pairs.begin() + k, p);
+        return k;
+    }
+
+    template <class A> void archive(A& a) { a(pairs, image); }
+};
+
+/// Half list of contacts. An engine sorts it and may bring contacts that threads share to the front. An empty history
+/// (frictionless law) takes no memory; rows are there after a step that was asked for them, and empty otherwise.
+template <class History> struct contact_list : pair_list {
+    static constexpr bool remembers = !std::is_empty_v<History>;
+
+    std::vector<History> history; ///< empty if the law has none
+    std::vector<force_row> rows;
+
+    /// Adds a pair in its place, with an empty history and an empty row.
+    template <class Order> void insert(const pebble_pair& p, Order&& before) {
+        const std::ptrdiff_t k = pair_list::insert(p, before);
+        if constexpr (remembers) history.insert(history.begin() + k, History{});
+        if (!rows.empty() || size() == 1) rows.insert(rows.begin() + k, force_row{});
+    }
     /// New pairs: empty histories, no rows yet.
     void resize() {
         rows.clear();
         if constexpr (remembers) history.assign(pairs.size(), {});
     }
-    /// Adds a pair in its place, with an empty history and an empty row.
-    template <class Order> void insert(const pebble_pair& p, Order&& before) {
-        const auto k = std::lower_bound(pairs.begin(), pairs.end(), p, before) - pairs.begin();
-        pairs.insert(pairs.begin() + k, p);
-        if constexpr (remembers) history.insert(history.begin() + k, History{});
-        if (!rows.empty() || size() == 1) rows.insert(rows.begin() + k, force_row{});
-    }
-    /// Takes over the histories of the pairs that `old` has, too; both lists are sorted by `before`.
-    template <class Order> void take_histories(const contact_list& old, Order&& before) {
+    /// Takes over the histories of the pairs that `old` has, too. Both are sorted by `before`: this list as it stands,
+    /// the old one as each(f) calls f(k) for all its contacts.
+    template <class Order, class Each>
+    void take_histories(const contact_list& old, Order&& before, [[maybe_unused]] Each&& each) {
         if constexpr (remembers) {
             std::size_t k = 0;
-            for (std::size_t was = 0; was < old.size(); ++was) {
+            each([&](std::size_t was) {
                 while (k < size() && pairs[k] != old.pairs[was] && before(pairs[k], old.pairs[was])) ++k;
-                if (k == size()) return;
-                if (pairs[k] == old.pairs[was])
+                if (k < size() && pairs[k] == old.pairs[was])
                     history[k++] = old.history[was]; // as a rule the next two are equal, too
-            }
+            });
         }
     }
     /// The contact that shall stand at k stands at order[k].
@@ -135,7 +148,7 @@ template <class History> struct contact_list {
     }
 
     template <class A> void archive(A& a) {
-        a(pairs, image);
+        pair_list::archive(a);
         if constexpr (remembers) a(history);
         if (rows.size() != pairs.size()) rows.clear(); // written anew by the next step
     }
@@ -155,34 +168,26 @@ class incidence {
     };
 
     incidence() = default;
-    /// For bodies 0 to n - 1. `wall` holds what has a member `pebble`; body_of(pebble): its body.
-    template <class History, class Wall, class F>
-    incidence(std::size_t n, const contact_list<History>& list, const Wall& wall, F&& body_of) : start_(n + 1, 0) {
-        const auto each = [&](auto&& f) {
-            std::uint32_t row = 0;
-            const auto put = [&](std::uint32_t side, std::int32_t pebble) {
-                f(body_of(pebble), entry{row << 1 | side, pebble});
+    /// For bodies 0 to n - 1. each(f) calls f(k) for the contacts of the list in the order of the sums; `wall` holds
+    /// what has a member `pebble`; body_of(pebble): its body.
+    template <class Each, class Wall, class F>
+    incidence(std::size_t n, const pair_list& list, Each&& each, const Wall& wall, F&& body_of) : start_(n + 1, 0) {
+        const auto each_entry = [&](auto&& f) {
+            const auto put = [&](std::size_t row, std::uint32_t side, std::int32_t pebble) {
+                f(body_of(pebble), entry{static_cast<std::uint32_t>(row) << 1 | side, pebble});
             };
-            for (const pebble_pair& p : list.pairs) put(0, p.i), put(1, p.j), ++row;
-            for (const auto& w : wall) put(0, w.pebble), ++row;
+            each([&](std::size_t k) { put(k, 0, list.pairs[k].i), put(k, 1, list.pairs[k].j); });
+            for (std::size_t k = 0; k < wall.size(); ++k) put(list.size() + k, 0, wall[k].pebble);
         };
-        each([&](std::size_t body, const entry&) { ++start_[body + 1]; });
+        each_entry([&](std::size_t body, const entry&) { ++start_[body + 1]; });
         for (std::size_t b = 0; b < n; ++b) start_[b + 1] += start_[b];
         entries_.resize(start_[n]);
         std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-        each([&](std::size_t body, const entry& e) { entries_[next[body]++] = e; });
+        each_entry([&](std::size_t body, const entry& e) { entries_[next[body]++] = e; });
     }
 
     std::span<const entry> of(std::size_t body) const {
         return {entries_.data() + start_[body], entries_.data() + start_[body + 1]};
-    }
-
-    /// The contacts were reordered: the one that now stands at k stood at order[k].
-    void renumber(std::span<const std::uint32_t> order) {
-        std::vector<std::uint32_t> now(order.size());
-        for (std::uint32_t k = 0; k < order.size(); ++k) now[order[k]] = k;
-        for (entry& e : entries_)
-            if (e.row() < now.size()) e.row_and_side = now[e.row()] << 1 | (e.row_and_side & 1U);
     }
 
     template <class A> void archive(A& a) { a(start_, entries_); }

@@ -32,6 +32,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -103,7 +104,8 @@ struct engine_totals {
     double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
     double initial_energy = 0.0;   ///< brought in with initial velocities
     std::int64_t steps = 0;
-    std::int64_t rebuilds = 0;
+    std::int64_t rebuilds = 0; ///< searches for neighbours
+    std::int64_t renewals = 0; ///< of the lists, from what a search has found
     std::int64_t replaced = 0;
     std::int64_t broken_tension = 0;
     std::int64_t broken_shear = 0;
@@ -154,10 +156,12 @@ template <triaxial_policies P> class engine {
         }
         smallest_mass_ = grains.smallest_mass();
         skin_ = settings.skin;
+        wide_.margin = 4.0 * skin_;
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        if constexpr (specimen_type::turns) needed_.assign(grains.pebble_count(), 0);
+        if constexpr (specimen_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
-        rebuild();
+        search();
+        pick();
         estimate_step(true);
     }
 
@@ -192,7 +196,8 @@ template <triaxial_policies P> class engine {
     void set_boundary(boundary_type b) {
         boundary = std::move(b);
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        rebuild();
+        search();
+        pick();
     }
     /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
     double friction() const {
@@ -216,13 +221,14 @@ template <triaxial_policies P> class engine {
     template <class A> void archive(A& a) {
         place_all();
         join_ranges();
-        a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_rebuild_,
+        a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_search_, must_renew_,
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(slow_, slow_wall_, slow_of_, reference_, needed_, wall_travel_, stretch_, reference_edges_, widest_, skin_,
-          skin_used_up_, listed_at_step_, open_pairs_);
-        if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, ball_reference_, broken_);
+        a(wide_, slow_, slow_wall_, since_, listed_, unlisted_, stretch_, widest_, skin_, skin_used_up_,
+          listed_at_step_, open_pairs_);
+        if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, broken_);
+        slow_of_.reset();
         split_ranges();                                                  // as the threads of this run ask for
         fast_.rows.resize(fast_.size());                                 // written anew by the next step
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
@@ -317,7 +323,7 @@ template <triaxial_policies P> class engine {
     void place_all() {
         if constexpr (specimen_type::turns)
             settings.run.for_each(grains.body_count(), [&](std::size_t b) {
-                if (grains.is_swept(b)) grains.place(b, [&](std::size_t p) { return needed_[p] == 0; });
+                if (grains.is_swept(b)) grains.place(b, unlisted_.of(b));
             });
     }
 
@@ -350,7 +356,7 @@ template <triaxial_policies P> class engine {
 
     /// keep_rows: for those who look after the step; last_of_many: what is looked at now and then only was left out.
     void one_step(bool keep_rows, bool last_of_many) {
-        if (must_rebuild_) rebuild();
+        if (must_search_ || must_renew_) renew_lists();
         if (estimate_due_ || totals_.steps % step_interval == 0) estimate_step(false);
         if constexpr (breakable)
             if (has_light_bodies()) advance_light();
@@ -361,7 +367,7 @@ template <triaxial_policies P> class engine {
             observe = totals_.steps % boundary_type::look == 0 ? keep_rows || boundary.has_servo()
                                                                : last_of_many && !boundary.has_servo();
         if constexpr (breakable && has_criterion)
-            look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0;
+            if (look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0; look_) index_slow();
         const double moved = sweep(keep_rows || observe || look_);
         if constexpr (periodic) {
             add_work_of_images();
@@ -446,7 +452,7 @@ template <triaxial_policies P> class engine {
             }
     }
     /// From pebble i to the image of pebble j that pair k of a list means (m).
-    vec3 apart(const contact_list<history>& list, std::size_t k) const {
+    vec3 apart(const pair_list& list, std::size_t k) const {
         const pebble_pair& p = list.pairs[k];
         const vec3 d = grains.pebbles[at(p.j)].x - grains.pebbles[at(p.i)].x;
         if constexpr (periodic)
@@ -543,7 +549,7 @@ template <triaxial_policies P> class engine {
 
     // ---- integration ----------------------------------------------------------------------------------------------
 
-    /// Evaluates all slow contacts and moves all swept bodies; returns the largest displacement since the last rebuild.
+    /// Evaluates all slow contacts and moves all swept bodies; returns the largest displacement since the last renewal.
     double sweep(bool keep) {
         set_shifts();
         if (keep) slow_.rows.resize(slow_.size());
@@ -637,7 +643,7 @@ template <triaxial_policies P> class engine {
             return 0.0;
         };
         r.moved = std::max(r.moved, grains.advance(std::span<const moving_body>(r.ready), dt_, settings.damping,
-                                                   placed_, reference_, stretch_, ahead));
+                                                   listed_, since_.bodies, stretch_, ahead));
         r.ready.clear();
     }
 
@@ -781,6 +787,7 @@ template <triaxial_policies P> class engine {
             if (k < asleep_.size()) {
                 asleep_.erase(asleep_.begin() + static_cast<std::ptrdiff_t>(k));
                 fast_.insert(pair, order);
+                wide_.fast.insert(pair, order);
             }
             update_fragments(which, r.cluster);
             estimate_due_ = true; // a lighter piece may need a smaller sub-step
@@ -854,7 +861,7 @@ template <triaxial_policies P> class engine {
                 }
             }
         };
-        visit(slow_of_, slow_, slow_wall_);
+        visit(*slow_of_, slow_, slow_wall_);
         if constexpr (breakable)
             if (has_light_bodies()) visit(fast_of_, fast_, fast_wall_);
     }
@@ -892,7 +899,7 @@ template <triaxial_policies P> class engine {
             for (birth_certificate& m : marked_) {
                 const auto g = at(m.grain);
                 grain& one = grains.grains[g];
-                grains.place(g, [&](std::size_t p) { return needed_[p] == 0; });
+                grains.place(g, unlisted_.of(g));
                 const vec3 spin = spin_of(grains.turning[g].q, grains.turning[g].l, grains.inverse_inertia(one));
                 bonds::cluster_pool& pool = broken_.pools[at(one.shape)];
                 for (std::size_t k = 0; k < pool.shape().size(); ++k) {
@@ -912,7 +919,7 @@ template <triaxial_policies P> class engine {
                 broken_.members[at(one.shape)].push_back(m.grain);
                 totals_.bond_dissipation -= pool.energy(at(one.cluster)); // born with energy that no one paid for
                 ++totals_.replaced;
-                must_rebuild_ = estimate_due_ = true;
+                must_search_ = estimate_due_ = true;
             }
             if (!marked_.empty()) std::sort(broken_.balls.begin(), broken_.balls.end());
             marked_.clear();
@@ -963,31 +970,100 @@ template <triaxial_policies P> class engine {
     }
     void finish_boundary() {
         boundary.advance(dt_);
-        wall_travel_ += boundary.fastest() * dt_;
-        if constexpr (periodic) { // how much the strain of the cell brings two listed grains together
-            wall_travel_ = 0.0;
-            for (int a = 0; a < 3; ++a) {
-                stretch_[a] = boundary.edges()[a] / reference_edges_[a];
-                wall_travel_ = std::max(wall_travel_, std::abs(stretch_[a] - 1.0) * (widest_ + skin_));
-            }
+        since_.wall_travel += boundary.fastest() * dt_;
+        wide_.since.wall_travel += boundary.fastest() * dt_;
+        if constexpr (periodic) {
+            stretch_ = stretch_since(since_);
+            since_.wall_travel = strain_travel(stretch_, skin_);
         }
     }
 
     // ---- lists ----------------------------------------------------------------------------------------------------
+    //
+    // A search names all pairs within a wide margin; the lists hold those of them within the skin, and are renewed from
+    // what the search has found until that margin is used up. To pick from sorted pairs costs a tenth of a search, so
+    // the skin may be narrow, and hardly an open pair is evaluated.
 
-    /// Lists are rebuilt before any listed-out pair can touch: twice the largest displacement of a body surface since
-    /// the last rebuild against the skin, the walls' own travel included.
+    /// Where displacements count from.
+    struct origin {
+        std::vector<typename specimen_type::reference> bodies; ///< per swept body
+        std::vector<vec3> balls;                               ///< per pebble of a breakable specimen
+        vec3 edges;                                            ///< of a periodic cell
+        double wall_travel = 0.0; ///< how far walls have moved since, or how much strain brings two grains together (m)
+
+        template <class A> void archive(A& a) { a(bodies, balls, edges, wall_travel); }
+    };
+    /// What the last search has found, in the order of the lists.
+    struct wide_lists {
+        pair_list slow, fast;
+        std::vector<std::int32_t> wall; ///< pebbles that a facet may touch
+        origin since;
+        double margin = 0.0; ///< largest gap of what was found (m)
+        bool used_up = false;
+        std::int64_t renewals = 0; ///< of lists since then
+        std::size_t beyond = 0;    ///< pairs outside the skin then
+
+        template <class A> void archive(A& a) { a(slow, fast, wall, since, margin, used_up, renewals, beyond); }
+    };
+
+    /// Lists are renewed before any listed-out pair can touch: twice the largest displacement of a body surface since
+    /// the last renewal against the skin, the walls' own travel included.
     void check_displacements(double largest) {
         if constexpr (breakable)
             largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
                 const std::size_t p = at(broken_.balls[k]), b = ball(broken_.balls[k]);
-                const double moved =
-                    norm(grains.pebbles[p].x - ball_reference_[p]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                const double moved = norm(grains.pebbles[p].x - since_.balls[p]) + 2.0 * dt_ * norm(grains.motion[b].v);
                 return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
             });
         if (!std::isfinite(largest)) explain_nan();
-        if (2.0 * largest + (periodic ? wall_travel_ : 0.0) >= skin_ || largest + wall_travel_ >= skin_)
-            must_rebuild_ = skin_used_up_ = true;
+        if (nearer(largest, since_) >= skin_) must_renew_ = skin_used_up_ = true;
+    }
+    /// How much nearer (m) two bodies, or a body and a wall, can have come that have moved by `largest` at most.
+    static double nearer(double largest, const origin& since) {
+        return periodic ? 2.0 * largest + since.wall_travel : std::max(2.0 * largest, largest + since.wall_travel);
+    }
+    vec3 stretch_since([[maybe_unused]] const origin& since) const {
+        vec3 s{1.0, 1.0, 1.0};
+        if constexpr (periodic)
+            for (int a = 0; a < 3; ++a) s[a] = boundary.edges()[a] / since.edges[a];
+        return s;
+    }
+    /// How much the strain of a periodic cell brings two grains together whose gap was `gap` at most (m).
+    double strain_travel(const vec3& stretch, double gap) const {
+        const vec3 strain = stretch - vec3{1.0, 1.0, 1.0};
+        return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + gap);
+    }
+    /// Whether the last search has found all pairs that are within the skin now.
+    bool wide_lists_hold() {
+        const vec3 stretch = stretch_since(wide_.since);
+        double largest = settings.run.max(grains.body_count(), 0.0, [&](std::size_t b) {
+            return grains.is_swept(b) ? grains.moved(b, wide_.since.bodies[b], stretch) : 0.0;
+        });
+        if constexpr (breakable)
+            largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
+                const std::size_t p = at(broken_.balls[k]);
+                return norm(grains.pebbles[p].x - wide_.since.balls[p]);
+            });
+        if constexpr (periodic) wide_.since.wall_travel = strain_travel(stretch, wide_.margin);
+        return nearer(largest, wide_.since) + skin_ < wide_.margin;
+    }
+    void set_origin(origin& now) const {
+        now.bodies.resize(grains.body_count());
+        for (std::size_t b = 0; b < grains.body_count(); ++b) now.bodies[b] = grains.refer(b);
+        if constexpr (breakable) {
+            now.balls.resize(grains.pebble_count());
+            for (std::int32_t p : broken_.balls) now.balls[at(p)] = grains.pebbles[at(p)].x;
+        }
+        if constexpr (periodic) now.edges = boundary.edges();
+        now.wall_travel = 0.0;
+    }
+
+    void renew_lists() {
+        place_all();
+        choose_skin();
+        if (!must_search_ && !wide_lists_hold()) must_search_ = wide_.used_up = true;
+        if (must_search_) search();
+        pick();
     }
     /// The skin for the lists about to be made: open pairs cost in every step and grow with the skin, renewals become
     /// rarer with it, so that the sum is least where
@@ -997,22 +1073,33 @@ template <triaxial_policies P> class engine {
     /// both counted in evaluations of a pair. Counted, never timed: the same run has the same lists on any machine.
     void choose_skin() {
         if (!std::exchange(skin_used_up_, false)) return; // renewed for another reason: nothing learnt
-        // measured once: a renewal takes as long as 20 evaluations per body and 8 per pebble
         const auto bodies = static_cast<double>(grains.body_count()),
                    pebbles = static_cast<double>(grains.pebble_count());
-        const double work = 20.0 * bodies + 8.0 * pebbles;
+        const double work = 4.0 * bodies + 0.8 * pebbles; // measured once
         const double steps = static_cast<double>(std::max<std::int64_t>(1, totals_.steps - listed_at_step_));
-        const double better = std::sqrt(work / (steps * static_cast<double>(std::max<std::size_t>(1, open_pairs_))));
-        skin_ = std::clamp(skin_ * std::clamp(better, 0.8, 1.25), 0.25 * settings.skin, 4.0 * settings.skin);
+        skin_ = better(skin_, work, steps * static_cast<double>(open_pairs_));
+        skin_ = std::clamp(skin_, settings.skin / 16.0, 16.0 * settings.skin);
     }
-    void count_open_pairs() {
-        open_pairs_ = 0;
-        for (const contact_list<history>* list : {&slow_, &fast_})
-            for (std::size_t k = 0; k < list->size(); ++k) {
-                const pebble_pair& p = list->pairs[k];
-                const double reach = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
-                open_pairs_ += norm2(apart(*list, k)) >= reach * reach;
-            }
+    /// The margin for the search about to be made: the same for the pairs that each renewal looks at.
+    void choose_margin() {
+        if (std::exchange(wide_.used_up, false)) {
+            // measured once: a search takes as long as 20 evaluations per body and 5 per pebble, to look at a pair a
+            // seventh of one
+            const auto bodies = static_cast<double>(grains.body_count()),
+                       pebbles = static_cast<double>(grains.pebble_count());
+            const double looks = 0.15 * static_cast<double>(wide_.beyond) * static_cast<double>(wide_.renewals);
+            wide_.margin = better(wide_.margin, 20.0 * bodies + 5.0 * pebbles, looks);
+        }
+        wide_.margin = std::clamp(wide_.margin, 2.0 * skin_, 64.0 * settings.skin);
+        if constexpr (periodic) { // a small cell bounds it
+            const vec3 edges = boundary.edges();
+            wide_.margin =
+                std::max(skin_, std::min(wide_.margin, 0.49 * std::min({edges.x, edges.y, edges.z}) - widest_));
+        }
+    }
+    /// A length nearer to the one at which both costs are equal, of which the first falls with it and the second grows.
+    static double better(double length, double falls, double grows) {
+        return length * std::clamp(std::sqrt(falls / std::max(1.0, grows)), 0.8, 1.25);
     }
 
     [[noreturn]] void explain_nan() const {
@@ -1034,11 +1121,15 @@ template <triaxial_policies P> class engine {
                          "lower `safety` of the time step"});
     }
 
-    /// Finds all pairs within the skin: first bodies by their bounding spheres, then pebbles. Histories carry over.
-    void rebuild() {
-        place_all();
-        join_ranges();
-        choose_skin();
+    /// Finds all pairs within the wide margin: first bodies by their bounding spheres, then pebbles; and the pebbles
+    /// near walls.
+    void search() {
+        if constexpr (periodic) {
+            widest_ = 0.0;
+            for (std::size_t b = 0; b < grains.body_count(); ++b)
+                widest_ = std::max(widest_, 2.0 * grains.bounding_radius(b));
+        }
+        choose_margin();
         const std::size_t ng = grains.body_count();
         std::vector<searches::sphere> spheres;
         spheres.reserve(2 * ng); // with those at the faces of a periodic cell
@@ -1052,7 +1143,7 @@ template <triaxial_policies P> class engine {
         const std::size_t real = spheres.size();
         std::vector<std::uint8_t> ghost_image; // of the spheres after the real ones
         if constexpr (periodic) add_ghosts(spheres, ghost_image);
-        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, skin_);
+        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, wide_.margin);
 
         constexpr std::size_t chunk = 256;
         const std::size_t chunks = (near.size() + chunk - 1) / chunk;
@@ -1073,48 +1164,102 @@ template <triaxial_policies P> class engine {
                 }
             },
             1);
-        contact_list<history> slow, fast;
-        for (const std::size_t which : {0U, 1U}) {
-            contact_list<history>& list = which == 0 ? slow : fast;
-            sort(found, which, list);
-            if constexpr (breakable)
-                if (which == 1) { // what a bond carries sleeps as a contact
-                    asleep_.clear();
-                    std::erase_if(list.pairs, [&](const pebble_pair& p) {
-                        if (!is_bonded(p)) return false;
-                        asleep_.push_back(p);
-                        return true;
-                    });
-                }
-            list.resize();
-            list.take_histories(slow_, pair_order());
-            list.take_histories(fast_, pair_order());
+        sort(found, 0, wide_.slow);
+        sort(found, 1, wide_.fast);
+        if constexpr (breakable) { // what a bond carries sleeps as a contact
+            asleep_.clear();
+            std::erase_if(wide_.fast.pairs, [&](const pebble_pair& p) {
+                if (!is_bonded(p)) return false;
+                asleep_.push_back(p);
+                return true;
+            });
         }
+        wide_.wall.clear();
+        for (std::size_t g = 0; g < ng; ++g) {
+            if (grains.is_swept(g) && !boundary.near(grains.centre(g), grains.bounding_radius(g) + wide_.margin))
+                continue;
+            const index_range own = grains.pebbles_of(g);
+            for (std::size_t p = own.begin; p < own.end; ++p)
+                if (boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + wide_.margin))
+                    wide_.wall.push_back(static_cast<std::int32_t>(p));
+        }
+        set_origin(wide_.since);
+        wide_.renewals = 0;
+        must_search_ = false;
+        ++totals_.rebuilds;
+    }
+
+    /// The lists of contacts: what is within the skin of that which the last search has found. Histories carry over.
+    void pick() {
+        contact_list<history> slow, fast;
+        const auto each_old_fast = [&](auto&& f) {
+            for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
+        };
+        open_pairs_ = 0;
+        for (const bool light : {false, true}) {
+            contact_list<history>& list = light ? fast : slow;
+            pick(light ? wide_.fast : wide_.slow, list);
+            list.resize();
+            list.take_histories(slow_, pair_order(), [&](auto&& f) { each_slow(f); });
+            list.take_histories(fast_, pair_order(), each_old_fast);
+        }
+        if (wide_.renewals++ == 0) wide_.beyond = wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size();
         slow_ = std::move(slow);
         fast_ = std::move(fast);
         fast_.rows.assign(fast_.size(), {});
+        slow_shared_ = 0;
+        slow_order_.clear();
 
-        list_walls();
-        index_rows();
+        pick_walls();
+        sort_pebbles();
+        find_halo();
+        slow_of_.reset();
         split_ranges();
-        reference_.resize(ng);
-        for (std::size_t b = 0; b < ng; ++b) reference_[b] = grains.refer(b);
-        if constexpr (breakable) {
-            ball_reference_.resize(grains.pebble_count());
-            for (std::size_t p = 0; p < grains.pebble_count(); ++p) ball_reference_[p] = grains.pebbles[p].x;
-        }
-        if constexpr (periodic) {
-            reference_edges_ = boundary.edges();
-            stretch_ = {1.0, 1.0, 1.0};
-            widest_ = 0.0;
-            for (std::size_t b = 0; b < ng; ++b) widest_ = std::max(widest_, 2.0 * grains.bounding_radius(b));
-        }
-        wall_travel_ = 0.0;
+        set_origin(since_);
+        stretch_ = {1.0, 1.0, 1.0};
         listed_at_step_ = totals_.steps;
-        count_open_pairs();
         work_loads_.assign(loads_.size(), {});
-        must_rebuild_ = false;
-        ++totals_.rebuilds;
+        must_renew_ = false;
+        ++totals_.renewals;
+    }
+    /// The pairs of one list that are within the skin.
+    void pick(const pair_list& wide, contact_list<history>& list) {
+        if (wide.size() == 0) return;
+        constexpr std::uint8_t listed = 1, open = 2;
+        std::vector<std::uint8_t> is(wide.size());
+        settings.run.for_each(
+            wide.size(),
+            [&](std::size_t k) {
+                const pebble_pair& p = wide.pairs[k];
+                const double touch = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
+                const double reach = touch + skin_, distance2 = norm2(apart(wide, k));
+                is[k] = static_cast<std::uint8_t>((distance2 < reach * reach ? listed : 0) |
+                                                  (distance2 < touch * touch ? 0 : open));
+            },
+            1024);
+        std::size_t count = 0, open_pairs = 0;
+        for (const std::uint8_t f : is) count += f & listed, open_pairs += f == (listed | open);
+        open_pairs_ += open_pairs;
+        list.pairs.resize(count + 1); // one more: all are written, those that are listed are kept
+        if constexpr (periodic) list.image.resize(count + 1);
+        count = 0;
+        for (std::size_t k = 0; k < wide.size(); ++k) {
+            list.pairs[count] = wide.pairs[k];
+            if constexpr (periodic) list.image[count] = wide.image[k];
+            count += is[k] & listed;
+        }
+        list.pairs.resize(count);
+        if constexpr (periodic) list.image.resize(count);
+    }
+    void pick_walls() {
+        slow_wall_.clear(), fast_wall_.clear();
+        for (std::int32_t p : wide_.wall) {
+            if (!boundary.near(grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius + skin_)) continue;
+            const std::size_t body = grains.body_of(p);
+            wall_row w;
+            w.pebble = p;
+            (body < grains.body_count() ? slow_wall_ : fast_wall_).push_back(w);
+        }
     }
 
     struct listed_pair {
@@ -1137,10 +1282,10 @@ template <triaxial_policies P> class engine {
                 const double before = grains.kinetic_energy(at(s.id));
                 grains.shift(at(s.id), scale(steps, edges), scale(steps, boundary.edge_speeds()));
                 totals_.boundary_work += grains.kinetic_energy(at(s.id)) - before;
-                grains.place(at(s.id), [](std::size_t) { return true; });
+                grains.place(at(s.id));
                 s.centre = grains.centre(at(s.id));
             }
-            const double reach = widest + skin_;
+            const double reach = widest + wide_.margin;
             if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
                 throw run_error({"the periodic cell is too small for its grains",
                                  fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
@@ -1192,7 +1337,7 @@ template <triaxial_policies P> class engine {
             std::size_t n = 0;
             for (auto p = static_cast<std::int32_t>(own.begin); p < static_cast<std::int32_t>(own.end); ++p) {
                 kept[n] = p;
-                n += searches::within(pebble(p, by), other, skin_);
+                n += searches::within(pebble(p, by), other, wide_.margin);
             }
             kept.resize(n);
         };
@@ -1204,14 +1349,14 @@ template <triaxial_policies P> class engine {
             const searches::sphere pebble_q = pebble(q, shift);
             for (std::int32_t p : near_a) {
                 out[n] = list(p, q);
-                n += searches::within(pebble(p, {}), pebble_q, skin_);
+                n += searches::within(pebble(p, {}), pebble_q, wide_.margin);
             }
         }
         out.resize(n);
     }
     /// Puts pairs into the order of the lists: two counting sorts, by the second pebble and then by the group of the
     /// first. Among equals the search has put first pebbles in order, and both sorts leave them so.
-    void sort(const found_pairs& found, std::size_t which, contact_list<history>& list) const {
+    void sort(const found_pairs& found, std::size_t which, pair_list& list) const {
         const auto counting_sort = [](std::size_t keys, auto&& each, auto&& key, auto&& put) {
             std::vector<std::uint32_t> next(keys + 1, 0);
             each([&](const listed_pair& p) { ++next[key(p) + 1]; });
@@ -1253,38 +1398,48 @@ template <triaxial_policies P> class engine {
         return false;
     }
 
-    void list_walls() {
-        slow_wall_.clear(), fast_wall_.clear();
-        for (std::size_t g = 0; g < grains.body_count(); ++g) {
-            const bool swept = grains.is_swept(g);
-            if (swept && !boundary.near(grains.centre(g), grains.bounding_radius(g) + skin_)) continue;
-            const index_range pebbles = grains.pebbles_of(g);
-            for (std::size_t p = pebbles.begin; p < pebbles.end; ++p) {
-                if (!boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + skin_)) continue;
-                wall_row w;
-                w.pebble = static_cast<std::int32_t>(p);
-                (swept ? slow_wall_ : fast_wall_).push_back(w);
+    void index_fast() {
+        fast_of_ = incidence(
+            grains.motion.size(), fast_,
+            [&](auto&& f) {
+                for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
+            },
+            fast_wall_, [&](std::int32_t p) { return grains.body_of(p); });
+    }
+    /// Which rows act on a swept body: made when it is asked for the first time after a renewal.
+    void index_slow() {
+        if (!slow_of_)
+            slow_of_ = incidence(
+                grains.body_count(), slow_, [&](auto&& f) { each_slow(f); }, slow_wall_,
+                [&](std::int32_t p) { return grains.body_of(p); });
+    }
+    /// Which pebbles of clumps the lists name, and which not.
+    void sort_pebbles() {
+        if constexpr (!specimen_type::turns) return; // bodies are their pebbles
+        std::vector<std::uint8_t> named(grains.pebble_count(), 0);
+        const auto name = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
+            for (const pebble_pair& p : list.pairs) named[at(p.i)] = named[at(p.j)] = 1;
+            for (const wall_row& w : wall) named[at(w.pebble)] = 1;
+        };
+        name(slow_, slow_wall_);
+        name(fast_, fast_wall_);
+        const auto count = static_cast<std::size_t>(std::count(named.begin(), named.end(), 1));
+        listed_.resize(grains.body_count(), count);
+        unlisted_.resize(grains.body_count(), named.size() - count);
+        std::size_t in = 0, out = 0;
+        for (std::size_t b = 0; b < grains.body_count(); ++b) {
+            const index_range own = grains.pebbles_of(b);
+            for (std::size_t p = own.begin; p < own.end; ++p) { // no branch that depends on the packing
+                listed_.items[in] = unlisted_.items[out] = static_cast<std::int32_t>(p);
+                in += named[p], out += 1U - named[p];
             }
+            listed_.start[b + 1] = static_cast<std::uint32_t>(in);
+            unlisted_.start[b + 1] = static_cast<std::uint32_t>(out);
         }
     }
-
-    void index_fast() {
-        fast_of_ =
-            incidence(grains.motion.size(), fast_, fast_wall_, [&](std::int32_t p) { return grains.body_of(p); });
-    }
-    void index_rows() {
-        const auto body_of = [&](std::int32_t p) { return grains.body_of(p); };
-        slow_of_ = incidence(grains.body_count(), slow_, slow_wall_, body_of);
-        if constexpr (!specimen_type::turns) return; // bodies are their pebbles
-        needed_.assign(grains.pebble_count(), 0);
-        const auto need = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
-            for (const pebble_pair& p : list.pairs) needed_[at(p.i)] = needed_[at(p.j)] = 1;
-            for (const wall_row& w : wall) needed_[at(w.pebble)] = 1;
-        };
-        need(slow_, slow_wall_);
+    void find_halo() {
         if constexpr (breakable) {
             index_fast();
-            need(fast_, fast_wall_);
             for (std::size_t g = 0; g < grains.grain_count(); ++g)
                 broken_.halo[g] = grains.is_clump(g) && !fast_of_.of(g).empty() ? 1 : 0;
         }
@@ -1326,17 +1481,6 @@ template <triaxial_policies P> class engine {
             slow_shared_ =
                 static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), shared) - order.begin());
             slow_.reorder(order);
-            slow_of_.renumber(order);
-        }
-        if constexpr (specimen_type::turns) {
-            placed_.start.assign(1, 0);
-            placed_.items.clear();
-            for (std::size_t b = 0; b < bodies; ++b) {
-                const index_range own = grains.pebbles_of(b);
-                for (std::size_t p = own.begin; p < own.end; ++p)
-                    if (needed_[p] != 0) placed_.items.push_back(static_cast<std::int32_t>(p));
-                placed_.start.push_back(static_cast<std::uint32_t>(placed_.items.size()));
-            }
         }
         shared_load_.resize(slow_shared_);
         acting_.assign(bodies, {});
@@ -1375,7 +1519,7 @@ template <triaxial_policies P> class engine {
         std::vector<std::uint32_t> order(slow_.size());
         for (std::uint32_t k = 0; k < order.size(); ++k) order[slow_order_[k]] = k;
         slow_.reorder(order);
-        slow_of_.renumber(order);
+        slow_of_.reset();
         slow_shared_ = 0;
         slow_order_.clear();
     }
@@ -1392,10 +1536,11 @@ template <triaxial_policies P> class engine {
                 w.touch = boundary.touch(grains.pebbles[at(w.pebble)].x, grains.pebbles[at(w.pebble)].radius);
             });
         double limit = typical_limit(smallest_mass_);
+        index_slow();
         const auto faster = [&](std::size_t g, double so_far) {
-            if (!grains.is_swept(g)) return so_far;
+            if (!grains.is_swept(g) || surely_allows(g, -so_far)) return so_far;
             stiffness_sum k(grains.body_axes(g));
-            add_stiffness(k, slow_of_, g, slow_, slow_wall_, grains.centre(g));
+            add_stiffness(k, *slow_of_, g, slow_, slow_wall_, grains.centre(g));
             if constexpr (breakable) add_stiffness(k, fast_of_, g, fast_, fast_wall_, grains.centre(g));
             return -k.time_step(grains.body_mass(g), grains.body_inertia(g), settings.safety, -so_far);
         };
@@ -1414,6 +1559,27 @@ template <triaxial_policies P> class engine {
             (settings.grain_contact.normal_stiffness(typical) + 2.0 * settings.grain_contact.shear_stiffness(typical)) /
             3.0;
         return settings.safety * std::sqrt(mass / (3.0 * k));
+    }
+
+    /// Whether the number of listed contacts is enough to see that a body allows a step (s): each adds at most its
+    /// stiffness, at the farthest point of the body.
+    bool surely_allows(std::size_t g, double step) const {
+        if constexpr (requires { requires contact::constant_stiffness; }) {
+            const auto around = slow_of_->of(g);
+            if (!around.empty() && around.back().row() >= slow_.size()) return false; // walls have laws of their own
+            if constexpr (breakable)
+                if (!fast_of_.of(g).empty()) return false;
+            const contacts::overlap<double> any{0, 0, 1, 0, 1, 1};
+            const double shear = settings.grain_contact.shear_stiffness(any),
+                         normal = std::max(settings.grain_contact.normal_stiffness(any), shear);
+            const double turning = specimen_type::turns ? normal : shear; // of a sphere forces along n have no arm
+            const double reach = grains.bounding_radius(g);
+            const vec3 inertia = grains.body_inertia(g);
+            const double largest = std::max(normal / grains.body_mass(g),
+                                            turning * reach * reach / std::min({inertia.x, inertia.y, inertia.z}));
+            return step * step * static_cast<double>(around.size()) * largest <= settings.safety * settings.safety;
+        }
+        return false;
     }
 
     void add_stiffness(stiffness_sum& k, const incidence& of, std::size_t body, const contact_list<history>& list,
@@ -1500,11 +1666,12 @@ template <triaxial_policies P> class engine {
     contact_list<history> fast_;      ///< at least one ball
     std::vector<pebble_pair> asleep_; ///< pairs of balls that an intact bond carries, in the order of the lists
     std::vector<wall_row> slow_wall_, fast_wall_;
-    incidence slow_of_, fast_of_;
-    std::vector<typename specimen_type::reference> reference_; ///< per swept body: where it was at the last rebuild
-    std::vector<vec3> ball_reference_;                         ///< per pebble of a breakable specimen
-    std::vector<std::uint8_t> needed_;                         ///< per pebble: in a list, so placed in every step
-    body_items placed_;                                        ///< the same, by bodies
+    wide_lists wide_;                  ///< what the last search has found
+    origin since_;                     ///< where bodies were at the last renewal of the lists
+    std::optional<incidence> slow_of_; ///< made when it is needed
+    incidence fast_of_;
+    body_items listed_;   ///< pebbles of clumps that are in a list, so placed in every step
+    body_items unlisted_; ///< the others
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
     std::vector<body_range> ranges_;
@@ -1519,7 +1686,6 @@ template <triaxial_policies P> class engine {
     engine_totals totals_;
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
-    double wall_travel_ = 0.0;
     double skin_ = 0.0;         ///< of the present lists (m)
     bool skin_used_up_ = false; ///< the next renewal is due because grains moved
     std::int64_t listed_at_step_ = 0;
@@ -1527,13 +1693,13 @@ template <triaxial_policies P> class engine {
     std::vector<std::uint32_t> across_;       ///< contacts across a face of a periodic cell, ascending
     std::vector<vec3> across_force_;          ///< and the forces on their first body (N)
     std::vector<std::uint32_t> across_order_; ///< their numbers, in the order of one thread
-    vec3 stretch_{1.0, 1.0, 1.0}; ///< edges of a periodic cell over those at the last rebuild: a homogeneous
+    vec3 stretch_{1.0, 1.0, 1.0}; ///< edges of a periodic cell over those at the last renewal: a homogeneous
                                   ///< deformation brings no pair together but by its strain
-    vec3 reference_edges_;        ///< of a periodic cell, at the last rebuild
     double widest_ = 0.0;         ///< largest bounding diameter, of a periodic specimen (m)
     std::conditional_t<periodic, std::array<vec3, 27>, nothing> shift_{}, shift_speed_{}; ///< of the images
     int fast_steps_ = 1;
-    bool must_rebuild_ = false;
+    bool must_search_ = false;
+    bool must_renew_ = false;
     bool estimate_due_ = false;
 };
 

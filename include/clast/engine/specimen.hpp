@@ -64,6 +64,12 @@ struct body_items {
     std::span<const std::int32_t> of(std::size_t body) const {
         return {items.data() + start[body], items.data() + start[body + 1]};
     }
+    /// Makes room for a number of items, and one to spare.
+    void resize(std::size_t bodies, std::size_t count) {
+        start.assign(bodies + 1, 0);
+        items.resize(count + 1);
+    }
+    template <class A> void archive(A& a) { a(start, items); }
 };
 
 /// Indices from begin to end - 1.
@@ -174,6 +180,10 @@ struct specimen {
                rotational_energy(turning[g].q, turning[g].l, inverse_inertia(grains[g]));
     }
     reference refer(std::size_t g) const { return {turning[g].q, motion[g].x}; }
+    /// Upper bound (m) of the way that a point of the body has gone since then; stretch: of the space in between.
+    double moved(std::size_t g, const reference& since, const vec3& stretch) const {
+        return way_of(motion[g].x - scale(stretch, since.centre), since.q, turning[g].q, bounding_radius(g));
+    }
     /// Moves bodies by one step h (s) under their loads, with local damping of force and moment (in the body frame),
     /// and places those of their pebbles that are `wanted`. since: where displacements count from, per body; stretch:
     /// of the space between then and now. further(body): way (m) to be added to the displacement of a body. Returns the
@@ -204,15 +214,15 @@ struct specimen {
         }
         return most;
     }
-    /// Places those pebbles of a clump for which chosen(pebble).
-    template <class F> void place(std::size_t g, F&& chosen) {
-        const mat3 m = matrix(turning[g].q);
-        const double axes[3][4] = {
-            {m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
-        const placement to(motion[g], axes, shape_of(grains[g]), grains[g].first);
+    /// Places the pebbles of a clump, or some of them.
+    void place(std::size_t g) {
+        const auto to = placement_of(g);
         const index_range all = pebbles_of(g);
-        for (std::size_t p = all.begin; p < all.end; ++p)
-            if (chosen(p)) to.put(static_cast<std::int32_t>(p), pebbles[p]);
+        for (std::size_t p = all.begin; p < all.end; ++p) to.put(static_cast<std::int32_t>(p), pebbles[p]);
+    }
+    void place(std::size_t g, std::span<const std::int32_t> some) {
+        const auto to = placement_of(g);
+        for (std::int32_t p : some) to.put(p, pebbles[static_cast<std::size_t>(p)]);
     }
     /// Moves a body elsewhere at another velocity (an image in a periodic cell); its pebbles are not placed.
     void shift(std::size_t g, const vec3& by, const vec3& faster) { motion[g].x += by, motion[g].v += faster; }
@@ -244,6 +254,12 @@ struct specimen {
         std::int32_t first_;
         quad x_, axes_[3];
     };
+    placement placement_of(std::size_t g) const {
+        const mat3 m = matrix(turning[g].q);
+        const double axes[3][4] = {
+            {m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
+        return {motion[g], axes, shape_of(grains[g]), grains[g].first};
+    }
     /// Fills a strip whose size is set with bodies and where displacements count from; unused lanes repeat the last
     /// body.
     void fill(clump_strip& s, const moving_body* bodies, const reference* since, const vec3& stretch) const {
@@ -349,6 +365,9 @@ struct sphere_specimen {
         return 0.5 * (norm2(p.v) / p.inverse_mass + norm2(p.w) / p.inverse_inertia);
     }
     reference refer(std::size_t b) const { return {pebbles[b].x}; }
+    double moved(std::size_t b, const reference& since, const vec3& stretch) const {
+        return norm(pebbles[b].x - scale(stretch, since.centre));
+    }
     /// As for clumps; there is no pebble to be placed.
     template <class Further>
     double advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
@@ -363,7 +382,8 @@ struct sphere_specimen {
         }
         return finite ? std::sqrt(most2) : std::numeric_limits<double>::infinity();
     }
-    template <class F> void place(std::size_t, F&&) {}
+    void place(std::size_t) {}
+    void place(std::size_t, std::span<const std::int32_t>) {}
     void shift(std::size_t b, const vec3& by, const vec3& faster) { pebbles[b].x += by, pebbles[b].v += faster; }
     double smallest_mass() const {
         double most = 0.0;
@@ -411,11 +431,13 @@ concept specimen_type = std::movable<S> &&
     { c.body_axes(b) } -> std::same_as<mat3>;
     { c.kinetic_energy(b) } -> std::same_as<double>;
     { c.refer(b) } -> std::same_as<typename S::reference>;
+    { c.moved(b, c.refer(b), x) } -> std::same_as<double>;
     {
         s.advance(std::span<const moving_body>{}, h, h, wanted, std::span<const typename S::reference>{}, x,
                   [](std::size_t) { return 0.0; })
         } -> std::same_as<double>;
-    s.place(b, [](std::size_t) { return true; });
+    s.place(b);
+    s.place(b, std::span<const std::int32_t>{});
     s.shift(b, x, x);
 };
 static_assert(specimen_type<specimen> && specimen_type<sphere_specimen>);
