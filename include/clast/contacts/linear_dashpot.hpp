@@ -27,14 +27,14 @@ struct linear_dashpot {
     using history = shear_history;
     static constexpr bool constant_stiffness = true;
 
+    /// Force along the normal (N), repulsion positive: all there is where nothing rubs.
+    template <class T> T normal_force(const overlap<T>& o, const motion<T>& m) const {
+        return o.depth > 0.0 ? kn * o.depth + damper(o, m) : T(0.0);
+    }
     template <class T> response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double dt) const {
-        const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;
-        const T of_spheres = (4.0 / 3.0 * std::numbers::pi * density) * (i3 * j3 / (i3 + j3));
-        const T reduced = mass > 0.0 ? T(0.5 * mass) : of_spheres;
-        const T damper = gamma * reduced * m.approach;
-        const T fn = o.depth > 0.0 ? kn * o.depth + damper : T(0.0);
+        const T fn = normal_force(o, m);
         response<T> r = tangential_spring(o, m, h, fn, T(ks), mu * (fn > 0.0 ? fn : -fn));
-        r.dissipated += o.depth > 0.0 ? damper * m.approach * dt : T(0.0);
+        r.dissipated += o.depth > 0.0 ? damper(o, m) * m.approach * dt : T(0.0);
         return r;
     }
     /// Elastic energy of both springs (J).
@@ -43,6 +43,14 @@ struct linear_dashpot {
     }
     constexpr double normal_stiffness(const overlap<double>&) const { return kn; }
     constexpr double shear_stiffness(const overlap<double>&) const { return ks; }
+
+  private:
+    template <class T> T damper(const overlap<T>& o, const motion<T>& m) const {
+        const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;
+        const T of_spheres = (4.0 / 3.0 * std::numbers::pi * density) * (i3 * j3 / (i3 + j3));
+        const T reduced = mass > 0.0 ? T(0.5 * mass) : of_spheres;
+        return gamma * reduced * m.approach;
+    }
 };
 
 static_assert(contact_law<linear_dashpot>);

@@ -468,10 +468,14 @@ template <triaxial_policies P> class engine {
         if (w.touch.size == 0) return;
         // facets are frictionless: the law sees no tangential motion and keeps no history
         const auto push = [&](const contact& law, double depth, double approach) {
-            history none{};
-            return -law(contacts::overlap<double>{0, 0, 1, depth, r, r}, contacts::motion<double>{0, 0, 0, 0, approach},
-                        none, h)
-                        .fz;
+            const contacts::overlap<double> o{0, 0, 1, depth, r, r};
+            const contacts::motion<double> m{0, 0, 0, 0, approach};
+            if constexpr (requires { law.normal_force(o, m); })
+                return law.normal_force(o, m);
+            else {
+                history none{};
+                return -law(o, m, none, h).fz;
+            }
         };
         const vec3 v = grains.velocity_of(w.pebble);
         const auto closing = [&](const boundaries::touch& t) {
