@@ -48,7 +48,6 @@ inline double heap_in_use() {
 
 struct request {
     double stress = 2e6;  ///< to which the packing is compressed (Pa)
-    double skin = 5e-4;   ///< m
     double damping = 0.3; ///< in the run that is measured
     int threads = 1;
 };
@@ -67,7 +66,6 @@ clast::engine<P> make_engine(typename P::specimen grains, const clast::vec3& edg
                              .breakage = {},
                              .replacement = {},
                              .damping = wanted.damping,
-                             .skin = wanted.skin,
                              .run = clast::execution(wanted.threads)},
                             std::move(grains), cell);
 }

@@ -26,8 +26,7 @@ int main() {
                               .lateral_contact = law,
                               .breakage = {},
                               .replacement = {},
-                              .damping = 0.5,
-                              .skin = 1e-3}, // m: the largest gap of a listed pair
+                              .damping = 0.5},
                              spheres, clast::boundaries::periodic_cell({0.022 * n, 0.022 * n, 0.022 * n}));
     const auto report = [&](const char* when) {
         const clast::mat3 s = clast::measure::love_weber(e, e.boundary.volume());

@@ -169,7 +169,7 @@ TEST_CASE("lists never miss a contact: any skin and any search give the same bit
         e.place_all(); // pebbles that no list names are placed on demand
         return std::pair(checksum(e.grains), e.totals().renewals);
     };
-    const auto reference = run(looks_at_all{}, 2e-6);
+    const auto reference = run(looks_at_all{}, 1e-7);
     const auto wide = run(rigid{}, 4e-3);
     const auto usual = run(rigid{}, 5e-4);
     CHECK(reference.second > 1000); // renewed in nearly every step

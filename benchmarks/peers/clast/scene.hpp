@@ -40,7 +40,7 @@ struct scene {
     clast::vec3 low, high; ///< periodic cell or walls (m)
     std::vector<sphere> spheres;
     std::int64_t steps = 0;
-    double skin = 0.025; ///< over the mean diameter; tuned as those of the others were
+    double skin = 0.0; ///< over the mean diameter; 0: the engine's own
     int threads = 1;
 
     double operator[](const std::string& key) const {

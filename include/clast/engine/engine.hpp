@@ -64,7 +64,7 @@ template <triaxial_policies P> struct engine_settings {
     typename P::replacement replacement;
     double damping = 0.7;       ///< local damping coefficient in [0, 1)
     double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
-    double skin = 0.5e-3;       ///< m: pairs with a smaller gap are listed; the engine goes on from this value, > 0
+    double skin = 0.0;          ///< m: where the skin of the lists starts; 0: from the size of the grains
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
     execution run = execution(1);
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
@@ -155,11 +155,12 @@ template <triaxial_policies P> class engine {
             grains.losses.resize(grains.motion.size());
         }
         smallest_mass_ = grains.smallest_mass();
-        skin_ = settings.skin;
-        wide_.margin = 4.0 * skin_;
+        skin_ = start_skin_ = settings.skin > 0.0 ? settings.skin : 0.003 * mean_bounding_radius();
+        wide_.margin = 50.0 * skin_;
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         if constexpr (specimen_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
+        choose_margins();
         search();
         pick();
         estimate_step(true);
@@ -196,6 +197,7 @@ template <triaxial_policies P> class engine {
     void set_boundary(boundary_type b) {
         boundary = std::move(b);
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
+        choose_margins();
         search();
         pick();
     }
@@ -225,8 +227,8 @@ template <triaxial_policies P> class engine {
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(wide_, slow_, slow_wall_, since_, listed_, unlisted_, stretch_, widest_, skin_, skin_used_up_,
-          listed_at_step_, open_pairs_);
+        a(wide_, slow_, slow_wall_, since_, margins_, wall_margin_, listed_, unlisted_, stretch_, widest_, skin_,
+          skin_used_up_, listed_at_step_, open_pairs_);
         if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, broken_);
         slow_of_.reset();
         split_ranges();                                                  // as the threads of this run ask for
@@ -368,7 +370,7 @@ template <triaxial_policies P> class engine {
                                                                : last_of_many && !boundary.has_servo();
         if constexpr (breakable && has_criterion)
             if (look_ = breakage_on && totals_.steps % settings.replacement.check_interval == 0; look_) index_slow();
-        const double moved = sweep(keep_rows || observe || look_);
+        const margin_use use = sweep(keep_rows || observe || look_);
         if constexpr (periodic) {
             add_work_of_images();
             if (observe) observe_stress();
@@ -381,7 +383,7 @@ template <triaxial_policies P> class engine {
         }
         totals_.time += dt_;
         ++totals_.steps;
-        check_displacements(moved);
+        check_margins(use);
     }
 
     // ---- forces ---------------------------------------------------------------------------------------------------
@@ -553,8 +555,8 @@ template <triaxial_policies P> class engine {
 
     // ---- integration ----------------------------------------------------------------------------------------------
 
-    /// Evaluates all slow contacts and moves all swept bodies; returns the largest displacement since the last renewal.
-    double sweep(bool keep) {
+    /// Evaluates all slow contacts and moves all swept bodies.
+    margin_use sweep(bool keep) {
         set_shifts();
         if (keep) slow_.rows.resize(slow_.size());
         each_strip(slow_shared_, [&](std::size_t begin, std::size_t end, strip_type& s) {
@@ -563,14 +565,14 @@ template <triaxial_policies P> class engine {
         });
         settings.run.for_each(
             ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r], keep); }, 1);
-        double moved = 0.0;
-        for (const body_range& r : ranges_) moved = std::max(moved, r.moved);
+        margin_use use = margin_use::within;
+        for (const body_range& r : ranges_) use = std::max(use, r.use);
         if constexpr (breakable && has_criterion)
             for (body_range& r : ranges_) {
                 std::move(r.marked.begin(), r.marked.end(), std::back_inserter(marked_));
                 r.marked.clear();
             }
-        return moved;
+        return use;
     }
 
     struct birth_certificate {
@@ -586,7 +588,7 @@ template <triaxial_policies P> class engine {
         std::size_t first_wall = 0;          ///< of the wall rows of its bodies
         std::vector<std::uint32_t> incoming; ///< shared contacts whose second body is in it
         std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
-        double moved = 0.0;                  ///< largest displacement of a surface in it (m)
+        margin_use use = margin_use::within; ///< of its bodies
         std::vector<birth_certificate> marked;
     };
 
@@ -594,7 +596,7 @@ template <triaxial_policies P> class engine {
         for (std::uint32_t k : r.incoming) shared_load_[k].add_to_j(acting_[grains.body_of(slow_.pairs[k].j)]);
         strip_type s;
         std::size_t row = r.first_row, body = r.first_body, shared = r.first_shared, wall = r.first_wall;
-        r.moved = 0.0;
+        r.use = margin_use::within;
         for (;;) {
             for (; body < r.last_body && own_end_[body] <= row; ++body)
                 if (grains.is_swept(body)) {
@@ -646,8 +648,8 @@ template <triaxial_policies P> class engine {
                     return dt_ * (norm(grains.motion[g].v) + grains.bounding_radius(g) * norm(grains.motion[g].w));
             return 0.0;
         };
-        r.moved = std::max(r.moved, grains.advance(std::span<const moving_body>(r.ready), dt_, settings.damping,
-                                                   listed_, since_.bodies, stretch_, ahead));
+        r.use = std::max(r.use, grains.advance(std::span<const moving_body>(r.ready), dt_, settings.damping, listed_,
+                                               {since_.bodies, margins_, stretch_}, ahead));
         r.ready.clear();
     }
 
@@ -1010,21 +1012,21 @@ template <triaxial_policies P> class engine {
         template <class A> void archive(A& a) { a(slow, fast, wall, since, margin, used_up, renewals, beyond); }
     };
 
-    /// Lists are renewed before any listed-out pair can touch: twice the largest displacement of a body surface since
-    /// the last renewal against the skin, the walls' own travel included.
-    void check_displacements(double largest) {
-        if constexpr (breakable)
-            largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
+    /// Lists are renewed before a pair that they leave out can touch: when a body has used up its margin, or walls and
+    /// strain theirs.
+    void check_margins(margin_use use) {
+        if constexpr (breakable) {
+            const double worst = settings.run.max(broken_.balls.size(), -1.0, [&](std::size_t k) {
                 const std::size_t p = at(broken_.balls[k]), b = ball(broken_.balls[k]);
-                const double moved = norm(grains.pebbles[p].x - since_.balls[p]) + 2.0 * dt_ * norm(grains.motion[b].v);
-                return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+                const double way = norm(grains.pebbles[p].x - since_.balls[p]) + 2.0 * dt_ * norm(grains.motion[b].v);
+                return std::isfinite(way) ? way - margins_[b] : std::numeric_limits<double>::infinity();
             });
-        if (!std::isfinite(largest)) explain_nan();
-        if (nearer(largest, since_) >= skin_) must_renew_ = skin_used_up_ = true;
-    }
-    /// How much nearer (m) two bodies, or a body and a wall, can have come that have moved by `largest` at most.
-    static double nearer(double largest, const origin& since) {
-        return periodic ? 2.0 * largest + since.wall_travel : std::max(2.0 * largest, largest + since.wall_travel);
+            use = std::max(use, worst < 0.0            ? margin_use::within
+                                : std::isfinite(worst) ? margin_use::used_up
+                                                       : margin_use::not_finite);
+        }
+        if (use == margin_use::not_finite) explain_nan();
+        if (use == margin_use::used_up || since_.wall_travel >= wall_margin_) must_renew_ = skin_used_up_ = true;
     }
     vec3 stretch_since([[maybe_unused]] const origin& since) const {
         vec3 s{1.0, 1.0, 1.0};
@@ -1037,19 +1039,44 @@ template <triaxial_policies P> class engine {
         const vec3 strain = stretch - vec3{1.0, 1.0, 1.0};
         return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + gap);
     }
-    /// Whether the last search has found all pairs that are within the skin now.
+    /// How far (m) every body may go before lists are renewed: half the skin, and more the faster it is. So a few fast
+    /// bodies do not make renewals due for all, nor margins wide.
+    void choose_margins() {
+        vec3 flow;
+        if constexpr (periodic)
+            for (int a = 0; a < 3; ++a) flow[a] = boundary.edge_speeds()[a] / boundary.edges()[a];
+        margins_.resize(grains.body_count());
+        if constexpr (breakable) margins_.resize(grains.motion.size());
+        settings.run.for_each(grains.body_count(), [&](std::size_t b) {
+            margins_[b] = grains.is_swept(b) ? grains.surface_speed(b, flow) : 0.0;
+        });
+        const double sum = settings.run.sum(grains.body_count(), 0.0, [&](std::size_t b) { return margins_[b]; });
+        const double usual =
+            std::max(sum / static_cast<double>(grains.body_count()), std::numeric_limits<double>::min());
+        const double most = std::max(0.5 * skin_, 0.125 * wide_.margin); // or it would make a search due at once
+        const auto margin = [&](double speed) { return std::min(0.5 * skin_ * (1.0 + 2.0 * speed / usual), most); };
+        settings.run.for_each(grains.body_count(), [&](std::size_t b) { margins_[b] = margin(margins_[b]); });
+        if constexpr (breakable)
+            for (std::int32_t p : broken_.balls) margins_[ball(p)] = margin(norm(grains.motion[ball(p)].v));
+        double speed = boundary.fastest();
+        if constexpr (periodic) speed = std::max({std::abs(flow.x), std::abs(flow.y), std::abs(flow.z)}) * widest_;
+        wall_margin_ = margin(speed);
+    }
+    /// Whether the last search has found all pairs that the lists need now.
     bool wide_lists_hold() {
         const vec3 stretch = stretch_since(wide_.since);
         double largest = settings.run.max(grains.body_count(), 0.0, [&](std::size_t b) {
-            return grains.is_swept(b) ? grains.moved(b, wide_.since.bodies[b], stretch) : 0.0;
+            return grains.is_swept(b) ? grains.moved(b, wide_.since.bodies[b], stretch) + margins_[b] : 0.0;
         });
         if constexpr (breakable)
             largest = settings.run.max(broken_.balls.size(), largest, [&](std::size_t k) {
                 const std::size_t p = at(broken_.balls[k]);
-                return norm(grains.pebbles[p].x - wide_.since.balls[p]);
+                return norm(grains.pebbles[p].x - wide_.since.balls[p]) + margins_[ball(broken_.balls[k])];
             });
         if constexpr (periodic) wide_.since.wall_travel = strain_travel(stretch, wide_.margin);
-        return nearer(largest, wide_.since) + skin_ < wide_.margin;
+        const double travel = wide_.since.wall_travel;
+        const double nearer = periodic ? 2.0 * largest + travel : std::max(2.0 * largest, largest + travel);
+        return nearer + wall_margin_ < wide_.margin;
     }
     void set_origin(origin& now) const {
         now.bodies.resize(grains.body_count());
@@ -1065,9 +1092,15 @@ template <triaxial_policies P> class engine {
     void renew_lists() {
         place_all();
         choose_skin();
+        choose_margins();
         if (!must_search_ && !wide_lists_hold()) must_search_ = wide_.used_up = true;
         if (must_search_) search();
         pick();
+    }
+    double mean_bounding_radius() const {
+        double sum = 0.0;
+        for (std::size_t b = 0; b < grains.body_count(); ++b) sum += grains.bounding_radius(b);
+        return sum / static_cast<double>(grains.body_count());
     }
     /// The skin for the lists about to be made: open pairs cost in every step and grow with the skin, renewals become
     /// rarer with it, so that the sum is least where
@@ -1082,7 +1115,7 @@ template <triaxial_policies P> class engine {
         const double work = 4.0 * bodies + 0.8 * pebbles; // measured once
         const double steps = static_cast<double>(std::max<std::int64_t>(1, totals_.steps - listed_at_step_));
         skin_ = better(skin_, work, steps * static_cast<double>(open_pairs_));
-        skin_ = std::clamp(skin_, settings.skin / 16.0, 16.0 * settings.skin);
+        skin_ = std::clamp(skin_, start_skin_ / 64.0, 64.0 * start_skin_);
     }
     /// The margin for the search about to be made: the same for the pairs that each renewal looks at.
     void choose_margin() {
@@ -1094,7 +1127,7 @@ template <triaxial_policies P> class engine {
             const double looks = 0.15 * static_cast<double>(wide_.beyond) * static_cast<double>(wide_.renewals);
             wide_.margin = better(wide_.margin, 20.0 * bodies + 5.0 * pebbles, looks);
         }
-        wide_.margin = std::clamp(wide_.margin, 2.0 * skin_, 64.0 * settings.skin);
+        wide_.margin = std::clamp(wide_.margin, 10.0 * skin_, 1000.0 * skin_);
         if constexpr (periodic) { // a small cell bounds it
             const vec3 edges = boundary.edges();
             wide_.margin =
@@ -1103,7 +1136,7 @@ template <triaxial_policies P> class engine {
     }
     /// A length nearer to the one at which both costs are equal, of which the first falls with it and the second grows.
     static double better(double length, double falls, double grows) {
-        return length * std::clamp(std::sqrt(falls / std::max(1.0, grows)), 0.8, 1.25);
+        return length * std::clamp(std::sqrt(falls / std::max(1.0, grows)), 0.6, 1.6);
     }
 
     [[noreturn]] void explain_nan() const {
@@ -1226,7 +1259,8 @@ template <triaxial_policies P> class engine {
         must_renew_ = false;
         ++totals_.renewals;
     }
-    /// The pairs of one list that are within the skin.
+    double margin_of(std::int32_t pebble) const { return margins_[grains.body_of(pebble)]; }
+    /// The pairs of one list whose gap is not larger than the margins of both bodies.
     void pick(const pair_list& wide, contact_list<history>& list) {
         if (wide.size() == 0) return;
         constexpr std::uint8_t listed = 1, open = 2;
@@ -1236,7 +1270,8 @@ template <triaxial_policies P> class engine {
             [&](std::size_t k) {
                 const pebble_pair& p = wide.pairs[k];
                 const double touch = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
-                const double reach = touch + skin_, distance2 = norm2(apart(wide, k));
+                const double reach = touch + margin_of(p.i) + margin_of(p.j) + (periodic ? wall_margin_ : 0.0),
+                             distance2 = norm2(apart(wide, k));
                 is[k] = static_cast<std::uint8_t>((distance2 < reach * reach ? listed : 0) |
                                                   (distance2 < touch * touch ? 0 : open));
             },
@@ -1258,7 +1293,8 @@ template <triaxial_policies P> class engine {
     void pick_walls() {
         slow_wall_.clear(), fast_wall_.clear();
         for (std::int32_t p : wide_.wall) {
-            if (!boundary.near(grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius + skin_)) continue;
+            const double reach = grains.pebbles[at(p)].radius + margin_of(p) + wall_margin_;
+            if (!boundary.near(grains.pebbles[at(p)].x, reach)) continue;
             const std::size_t body = grains.body_of(p);
             wall_row w;
             w.pebble = p;
@@ -1671,6 +1707,8 @@ template <triaxial_policies P> class engine {
     std::vector<pebble_pair> asleep_; ///< pairs of balls that an intact bond carries, in the order of the lists
     std::vector<wall_row> slow_wall_, fast_wall_;
     wide_lists wide_;                  ///< what the last search has found
+    std::vector<double> margins_;      ///< per body: how far it may go before lists are renewed (m)
+    double wall_margin_ = 0.0;         ///< the same for walls and for the strain of a cell (m)
     origin since_;                     ///< where bodies were at the last renewal of the lists
     std::optional<incidence> slow_of_; ///< made when it is needed
     incidence fast_of_;
@@ -1691,6 +1729,7 @@ template <triaxial_policies P> class engine {
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
     double skin_ = 0.0;         ///< of the present lists (m)
+    double start_skin_ = 0.0;   ///< of the first ones (m)
     bool skin_used_up_ = false; ///< the next renewal is due because grains moved
     std::int64_t listed_at_step_ = 0;
     std::size_t open_pairs_ = 0;              ///< listed pairs that did not touch then

@@ -56,6 +56,21 @@ struct moving_body {
     load_sum load;
 };
 
+/// How far bodies have gone of the way for which contact lists allow.
+enum class margin_use { within, used_up, not_finite };
+/// The same for a way (m) and its margin (m), or for the squares of both.
+inline margin_use use_of(double way, double margin) {
+    if (way < margin) return margin_use::within;
+    return std::isfinite(way) ? margin_use::used_up : margin_use::not_finite;
+}
+/// Ways of bodies count from `since`, in a space that has been stretched in between, and may be as long as `margins`
+/// (m).
+template <class Reference> struct allowance {
+    std::span<const Reference> since; ///< per body
+    std::span<const double> margins;  ///< per body
+    vec3 stretch;
+};
+
 /// Items of every body, side by side: those of body b are items[start[b]] to items[start[b + 1] - 1].
 struct body_items {
     std::vector<std::uint32_t> start;
@@ -184,18 +199,21 @@ struct specimen {
     double moved(std::size_t g, const reference& since, const vec3& stretch) const {
         return way_of(motion[g].x - scale(stretch, since.centre), since.q, turning[g].q, bounding_radius(g));
     }
+    /// Largest speed of a point of the body (m/s) beside a flow with the velocity rate * x.
+    double surface_speed(std::size_t g, const vec3& rate) const {
+        return norm(motion[g].v - scale(rate, motion[g].x)) + bounding_radius(g) * norm(motion[g].w);
+    }
     /// Moves bodies by one step h (s) under their loads, with local damping of force and moment (in the body frame),
-    /// and places those of their pebbles that are `wanted`. since: where displacements count from, per body; stretch:
-    /// of the space between then and now. further(body): way (m) to be added to the displacement of a body. Returns the
-    /// largest displacement of a point of one of the bodies (m).
+    /// and places those of their pebbles that are `wanted`. further(body): way (m) to be added to that of a body when
+    /// it is held against the allowance. Returns what the most mobile body has used of its own.
     template <class Further>
-    double advance(std::span<const moving_body> bodies, double h, double damping, const body_items& wanted,
-                   std::span<const reference> since, const vec3& stretch, Further&& further) {
-        double most = 0.0;
+    margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items& wanted,
+                       const allowance<reference>& allowed, Further&& further) {
+        margin_use use = margin_use::within;
         clump_strip s;
         for (; !bodies.empty(); bodies = bodies.subspan(s.size)) {
             s.size = std::min(clump_strip::length, bodies.size());
-            fill(s, bodies.data(), since.data(), stretch);
+            fill(s, bodies.data(), allowed.since.data(), allowed.stretch);
             clast::advance(s, h, damping);
             for (std::size_t k = 0; k < s.size; k += 4) {
                 axes_of_four axes;
@@ -207,12 +225,11 @@ struct specimen {
                     losses[g].friction += one.load.dissipated;
                     const placement to(motion[g], axes[l], shape_of(grains[g]), grains[g].first);
                     for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
-                    const double moved = s.moved[k + l] + further(g);
-                    most = std::max(most, std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity());
+                    use = std::max(use, use_of(s.moved[k + l] + further(g), allowed.margins[g]));
                 }
             }
         }
-        return most;
+        return use;
     }
     /// Places the pebbles of a clump, or some of them.
     void place(std::size_t g) {
@@ -368,19 +385,21 @@ struct sphere_specimen {
     double moved(std::size_t b, const reference& since, const vec3& stretch) const {
         return norm(pebbles[b].x - scale(stretch, since.centre));
     }
+    double surface_speed(std::size_t b, const vec3& rate) const {
+        return norm(pebbles[b].v - scale(rate, pebbles[b].x)); // to spin brings a sphere no nearer
+    }
     /// As for clumps; there is no pebble to be placed.
     template <class Further>
-    double advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
-                   std::span<const reference> since, const vec3& stretch, Further&&) {
-        double most2 = 0.0;
-        bool finite = true;
+    margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
+                       const allowance<reference>& allowed, Further&&) {
+        margin_use use = margin_use::within;
         for (const moving_body& one : bodies) {
             advance(one.body, one.load, h, damping);
-            const double d2 = norm2(pebbles[one.body].x - scale(stretch, since[one.body].centre));
-            finite = finite && d2 < std::numeric_limits<double>::infinity();
-            most2 = std::max(most2, d2);
+            const double margin = allowed.margins[one.body];
+            const vec3 way = pebbles[one.body].x - scale(allowed.stretch, allowed.since[one.body].centre);
+            use = std::max(use, use_of(norm2(way), margin * margin));
         }
-        return finite ? std::sqrt(most2) : std::numeric_limits<double>::infinity();
+        return use;
     }
     void place(std::size_t) {}
     void place(std::size_t, std::span<const std::int32_t>) {}
@@ -432,10 +451,11 @@ concept specimen_type = std::movable<S> &&
     { c.kinetic_energy(b) } -> std::same_as<double>;
     { c.refer(b) } -> std::same_as<typename S::reference>;
     { c.moved(b, c.refer(b), x) } -> std::same_as<double>;
+    { c.surface_speed(b, x) } -> std::same_as<double>;
     {
-        s.advance(std::span<const moving_body>{}, h, h, wanted, std::span<const typename S::reference>{}, x,
+        s.advance(std::span<const moving_body>{}, h, h, wanted, allowance<typename S::reference>{},
                   [](std::size_t) { return 0.0; })
-        } -> std::same_as<double>;
+        } -> std::same_as<margin_use>;
     s.place(b);
     s.place(b, std::span<const std::int32_t>{});
     s.shift(b, x, x);

@@ -263,7 +263,6 @@ template <triaxial_policies P> class triaxial_test {
                           .replacement = s.replacement,
                           .damping = s.damping,
                           .safety = s.safety,
-                          .skin = 0.0125 * s.grain.diameter,
                           .run = execution(s.threads)},
                          std::move(sp), boundary_type(vessel));
     }

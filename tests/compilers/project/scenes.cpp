@@ -86,7 +86,6 @@ struct spheres {
                             .replacement = {},
                             .damping = 0.0,
                             .safety = 0.4,
-                            .skin = 1e-3,
                             .run = execution(threads),
                             .contacts_per_thread = 8},
                            s, boundaries::periodic_cell({0.0205 * n, 0.0205 * n, 0.0205 * n}));
