@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include <clast/core/random.hpp>
 #include <clast/io/archive.hpp>
@@ -37,6 +39,7 @@ struct world {
     std::vector<break_report> broken;
     double dissipated = 0.0;
     double work = 0.0; // of the loads
+    bool packs = false;
 
     world(const shape& s, const parallel& material, double damping) : pool(lattice(s, material, density), damping) {}
 
@@ -57,24 +60,31 @@ struct world {
     }
     void step(double dt) {
         const std::size_t n = pebbles();
+        if (packs) pool.pack();
+        std::vector<break_report> now;
         for (std::size_t batch = 0; batch < pool.batches(); ++batch) {
             std::vector<ball_motion> balls(lanes * n);
             std::vector<pebble_load> loads(lanes * n);
             std::vector<vec3> moved(lanes * n);
-            const std::size_t from = batch * lanes * n, to = std::min(position.size(), from + lanes * n);
-            for (std::size_t k = from; k < to; ++k) {
-                balls[k - from] = {motion[k].velocity, motion[k].spin, position[k] + 0.5 * dt * motion[k].velocity};
-                loads[k - from] = load[k];
+            std::vector<std::pair<std::size_t, std::size_t>> place; // in the batch and in the world
+            for (std::size_t l = 0; l < lanes; ++l)
+                for (std::size_t k = 0; k < n && pool.living(batch, l) >= 0; ++k)
+                    place.emplace_back(l * n + k, static_cast<std::size_t>(pool.living(batch, l)) * n + k);
+            for (const auto& [here, k] : place) {
+                balls[here] = {motion[k].velocity, motion[k].spin, position[k] + 0.5 * dt * motion[k].velocity};
+                loads[here] = load[k];
             }
-            const auto lost = pool.advance(batch, dt, balls, loads, moved, broken);
+            const auto lost = pool.advance(batch, dt, balls, loads, moved, now);
             for (const double d : lost) dissipated += d;
-            for (std::size_t k = from; k < to; ++k) {
-                work += dot(load[k].force, moved[k - from]);
-                work += 0.5 * dt * dot(load[k].moment, motion[k].spin + balls[k - from].spin);
-                motion[k] = balls[k - from];
-                position[k] += moved[k - from];
+            for (const auto& [here, k] : place) {
+                work += dot(load[k].force, moved[here]);
+                work += 0.5 * dt * dot(load[k].moment, motion[k].spin + balls[here].spin);
+                motion[k] = balls[here];
+                position[k] += moved[here];
             }
         }
+        if (packs) std::sort(now.begin(), now.end(), told_before);
+        broken.insert(broken.end(), now.begin(), now.end());
     }
     double mass(std::size_t k) const { return pool.shape().mass[k % pebbles()]; }
     double inertia(std::size_t k) const { return pool.shape().inertia[k % pebbles()]; }
@@ -471,6 +481,56 @@ TEST_CASE("a pool that went through an archive continues with the same bits") {
     CHECK(checksum(a.pool) == checksum(b.pool));
     CHECK(a.broken.size() == b.broken.size());
     for (std::size_t k = 0; k < a.motion.size(); ++k) REQUIRE(a.motion[k].velocity == b.motion[k].velocity);
+}
+
+TEST_CASE("clusters that change seats keep their bits and the order in which they break") {
+    random_stream random{9, 11};
+    world plain(shapes::tetrahedron_4(0.02), parallel{}, 0.7);
+    for (int c = 0; c < 21; ++c) // some fall apart, some lose a bond or two, some stay whole
+        plain.add(orientation(random), {}, c % 3 == 0 ? 50.0 : c % 3 == 1 ? 1.0 : 0.2);
+    for (pebble_load& p : plain.load) p = {4000.0 * direction(random), 2.0 * direction(random)};
+    world packed = plain;
+    packed.packs = true;
+    std::size_t fewest = packed.pool.batches();
+    for (int i = 0; i < 60; ++i) {
+        if (i == 40) { // one more comes in the middle
+            const quaternion q = orientation(random);
+            plain.add(q), packed.add(q);
+        }
+        plain.step(2e-6), packed.step(2e-6);
+        fewest = std::min(fewest, packed.pool.batches());
+        cluster_pool saved = packed.pool; // saving gives everybody the seat of their number
+        REQUIRE(checksum(saved) == checksum(plain.pool));
+        REQUIRE(packed.broken.size() == plain.broken.size());
+    }
+    CHECK(fewest < plain.pool.batches());
+    CHECK(plain.broken.size() > 50);
+    std::size_t elsewhere = 0; // clusters of the last batches that broke in one step with those of the first
+    for (std::size_t k = 0; k < plain.broken.size(); ++k) {
+        const break_report &a = plain.broken[k], &b = packed.broken[k];
+        REQUIRE(std::tuple(a.cluster, a.bond, a.mode, a.step) == std::tuple(b.cluster, b.bond, b.mode, b.step));
+        REQUIRE(same(a.before, b.before));
+        elsewhere += k > 0 && a.cluster / 8 > plain.broken[k - 1].cluster / 8;
+    }
+    CHECK(elsewhere > 0);
+    for (std::size_t k = 0; k < plain.motion.size(); ++k) {
+        REQUIRE(packed.motion[k].velocity == plain.motion[k].velocity);
+        REQUIRE(packed.motion[k].spin == plain.motion[k].spin);
+        REQUIRE(packed.position[k] == plain.position[k]);
+    }
+    // everybody who has a bond left has a seat in front, and one only
+    packed.pool.pack();
+    std::vector<int> seats(packed.pool.size(), 0);
+    for (std::size_t batch = 0; batch < packed.pool.batches(); ++batch)
+        for (std::size_t l = 0; l < lanes; ++l)
+            if (packed.pool.living(batch, l) >= 0) ++seats[static_cast<std::size_t>(packed.pool.living(batch, l))];
+    std::size_t living = 0;
+    for (std::size_t c = 0; c < seats.size(); ++c) {
+        CHECK(seats[c] == (packed.pool.intact_bonds(c) > 0 ? 1 : 0));
+        CHECK(packed.pool.intact_bonds(c) == plain.pool.intact_bonds(c));
+        living += packed.pool.intact_bonds(c) > 0;
+    }
+    CHECK(packed.pool.batches() == (living + lanes - 1) / lanes);
 }
 
 TEST_CASE("a bond across a gap turns no grain") {

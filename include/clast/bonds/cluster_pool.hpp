@@ -7,7 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <clast/bonds/lattice.hpp>
@@ -28,11 +32,22 @@ struct break_report {
     std::int32_t cluster;
     std::int32_t bond;
     break_mode mode;
-    state before; ///< what it carried (world axes)
+    state before;      ///< what it carried (world axes)
+    std::int32_t step; ///< of the sub-cycle, in which it failed
 };
+/// Order in which the breaks of one sub-cycle are told, wherever the clusters sat: eight clusters after the other by
+/// their numbers, of these by steps, then bonds, then clusters.
+inline bool told_before(const break_report& a, const break_report& b) {
+    const auto key = [](const break_report& r) {
+        return std::tuple(r.cluster / static_cast<std::int32_t>(clast::lanes), r.step, r.bond, r.cluster);
+    };
+    return key(a) < key(b);
+}
 
-/// Clusters of one shape. Cluster c sits in lane c % 8 of batch c / 8 for life, so that one loop over the lanes does
-/// the same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set.
+/// Clusters of one shape. Eight clusters sit side by side in the lanes of a batch, so that one loop over the lanes does
+/// the same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set. No lane reads
+/// another, so a cluster gives the same bits wherever it sits, and may change its seat: pack() puts clusters that have
+/// about the same bonds left together, for a bond that is broken in all lanes costs nothing.
 ///
 /// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with
 /// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers
@@ -47,7 +62,13 @@ class cluster_pool {
 
     const lattice& shape() const { return shape_; }
     std::size_t size() const { return size_; }
-    std::size_t batches() const { return (size_ + lanes - 1) / lanes; }
+    /// Batches that may have intact bonds.
+    std::size_t batches() const { return (occupied_ + lanes - 1) / lanes; }
+    /// The cluster in a lane of a batch; -1 if it has no intact bond, or nobody sits there.
+    std::int32_t living(std::size_t batch, std::size_t lane) const {
+        const std::size_t seat = batch * lanes + lane;
+        return seat < size_ && intact_[seat] > 0 ? sitting_[seat] : -1;
+    }
     std::size_t bonds() const { return shape_.ends.size(); }
 
     /// Adds a cluster with the given bond states and the strength of its bonds over the material's; returns its number.
@@ -57,7 +78,10 @@ class cluster_pool {
             intact_.resize(intact_.size() + lanes, 0);
             strength_.resize(strength_.size() + lanes, 1.0);
         }
-        const std::size_t c = size_++;
+        const std::size_t c = size_++; // behind all others
+        seat_.push_back(static_cast<std::int32_t>(c));
+        sitting_.push_back(static_cast<std::int32_t>(c));
+        occupied_ = size_;
         strength_[c] = strength;
         for (std::size_t b = 0; b < bonds(); ++b) {
             put(c, b, born[b]);
@@ -67,14 +91,28 @@ class cluster_pool {
         return c;
     }
 
-    bool is_intact(std::size_t cluster, std::size_t bond) const { return value(cluster, bond, alive) != 0.0; }
-    std::int32_t intact_bonds(std::size_t cluster) const { return intact_[cluster]; }
-    state get(std::size_t c, std::size_t b) const {
-        return {value(c, b, normal_force),
-                {value(c, b, shear), value(c, b, shear + 1), value(c, b, shear + 2)},
-                value(c, b, twist),
-                {value(c, b, bending), value(c, b, bending + 1), value(c, b, bending + 2)}};
+    /// Gives clusters new seats if bonds broke or clusters came since the last time: those with many bonds first, of
+    /// equally many those with the same bonds side by side, those without any behind all batches.
+    void pack() {
+        const std::int64_t left = std::accumulate(intact_.begin(), intact_.end(), std::int64_t{0});
+        if (std::exchange(packed_clusters_, size_) == size_ && packed_bonds_ == left) return;
+        packed_bonds_ = left;
+        std::vector<std::int32_t> order = sitting_;
+        std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+            const std::size_t i = seat_of(a), j = seat_of(b);
+            if (intact_[i] != intact_[j]) return intact_[i] > intact_[j];
+            for (std::size_t bond = 0; intact_[i] > 0 && bond < bonds(); ++bond)
+                if (value(i, bond, alive) != value(j, bond, alive)) return value(i, bond, alive) != 0.0;
+            return a < b;
+        });
+        seat(order);
+        occupied_ = size_ - static_cast<std::size_t>(
+                                std::count(intact_.begin(), intact_.begin() + static_cast<std::ptrdiff_t>(size_), 0));
     }
+
+    bool is_intact(std::size_t cluster, std::size_t bond) const { return value(seat_of(cluster), bond, alive) != 0.0; }
+    std::int32_t intact_bonds(std::size_t cluster) const { return intact_[seat_of(cluster)]; }
+    state get(std::size_t cluster, std::size_t bond) const { return carried(seat_of(cluster), bond); }
     /// Elastic energy in the bonds of a cluster (J).
     double energy(std::size_t cluster) const {
         double e = 0.0;
@@ -96,27 +134,25 @@ class cluster_pool {
     std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
                                       std::span<const pebble_load> load, std::span<vec3> displacement,
                                       std::vector<break_report>& broken) {
-        const std::size_t n = shape_.size(), m = bonds();
+        const std::size_t n = shape_.size();
         std::array<double, lanes> dissipated{};
         std::array<double, lanes> live{};
-        bool any = false;
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const std::size_t c = batch * lanes + l;
-            live[l] = c < size_ && intact_[c] > 0 ? 1.0 : 0.0;
-            any = any || live[l] > 0.0;
-        }
-        if (!any) return dissipated;
+        for (std::size_t l = 0; l < lanes; ++l) live[l] = living(batch, l) >= 0 ? 1.0 : 0.0;
+        const auto lives = std::count(live.begin(), live.end(), 1.0);
+        if (lives == 0) return dissipated;
 
-        // lane-wise copies: v, w, external f and t, summed f and t, displacement (positions before that)
-        std::vector<double> scratch((n * 21 + m * 3) * lanes, 0.0);
-        double* const v = scratch.data();
-        double* const w = v + n * 3 * lanes;
-        double* const fe = w + n * 3 * lanes;
-        double* const te = fe + n * 3 * lanes;
-        double* const f = te + n * 3 * lanes;
-        double* const t = f + n * 3 * lanes;
-        double* const u = t + n * 3 * lanes;
-        double* const axis = u + n * 3 * lanes;
+        // lane-wise: v, w, external f and t, displacement (positions before that), summed f and t, normals
+        const std::size_t vectors = n * 3 * lanes;
+        const auto scratch = std::make_unique_for_overwrite<double[]>(7 * vectors + bonds() * 3 * lanes);
+        double* const v = scratch.get();
+        double* const w = v + vectors;
+        double* const fe = w + vectors;
+        double* const te = fe + vectors;
+        double* const u = te + vectors;
+        double* const f = u + vectors;
+        double* const t = f + vectors;
+        double* const axis = t + vectors;
+        if (lives < static_cast<std::ptrdiff_t>(lanes)) std::fill(v, f, 0.0); // what empty lanes read
         const auto at = [](std::size_t item, std::size_t component, std::size_t lane) {
             return (item * 3 + component) * lanes + lane;
         };
@@ -133,9 +169,12 @@ class cluster_pool {
                 }
             }
         }
-        for (std::size_t b = 0; b < m; ++b) {
+        std::vector<std::size_t> left; // bonds that a lane has left, in the end the fewest
+        left.reserve(bonds());
+        for (std::size_t b = 0; b < bonds(); ++b) {
             double* const s = values_.data() + base(batch, b);
             if (all_zero8(s + alive * lanes)) continue;
+            left.push_back(b);
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             const vec3x8 d = load3x8(u + j) - load3x8(u + i);
             const vec3x8 normal = ratio(lane8{} + 1.0, root(norm2(d))) * d; // zero in lanes without a cluster
@@ -148,13 +187,14 @@ class cluster_pool {
         const int steps = substeps(dt);
         const double h = dt / steps;
         // half a drift at either end, so that a step of one sub-step is of second order, too
-        for (std::size_t k = 0; k < n * 3 * lanes; ++k) u[k] = 0.5 * h * v[k];
-        if (gather(batch, 0.5 * h, v, w, f, t, axis)) collect(batch, axis, f, t, broken);
-        for (int step = 0; step < steps; ++step) {
+        for (std::size_t k = 0; k < vectors; ++k) u[k] = 0.5 * h * v[k];
+        if (gather(batch, left, 0.5 * h, v, w, f, t, axis)) collect(batch, 0, axis, f, t, broken);
+        for (int step = 1; step <= steps; ++step) {
             kick(h, v, w, fe, te, f, t, u, live, dissipated);
-            if (gather(batch, step + 1 < steps ? h : 0.5 * h, v, w, f, t, axis)) collect(batch, axis, f, t, broken);
+            if (gather(batch, left, step < steps ? h : 0.5 * h, v, w, f, t, axis))
+                collect(batch, step, axis, f, t, broken);
         }
-        for (std::size_t k = 0; k < n * 3 * lanes; ++k) u[k] -= 0.5 * h * v[k];
+        for (std::size_t k = 0; k < vectors; ++k) u[k] -= 0.5 * h * v[k];
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
             for (std::size_t i = 0; i < n; ++i)
@@ -168,26 +208,60 @@ class cluster_pool {
         return dissipated;
     }
 
-    template <class A> void archive(A& a) { a(size_, values_, intact_, strength_); }
+    /// Saved as if everybody sat in the order of their numbers: seats decide no bit.
+    template <class A> void archive(A& a) {
+        std::vector<std::int32_t> numbers(size_);
+        std::iota(numbers.begin(), numbers.end(), 0);
+        seat(numbers);
+        a(size_, values_, intact_, strength_);
+        seat_.resize(size_);
+        std::iota(seat_.begin(), seat_.end(), 0);
+        sitting_ = seat_;
+        occupied_ = size_;
+        packed_clusters_ = 0; // to be packed anew
+    }
 
   private:
     enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
 
     std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
-    double& value(std::size_t c, std::size_t b, std::size_t f) {
-        return values_[base(c / lanes, b) + f * lanes + c % lanes];
+    std::size_t place(std::size_t seat, std::size_t b, std::size_t f) const {
+        return base(seat / lanes, b) + f * lanes + seat % lanes;
     }
-    double value(std::size_t c, std::size_t b, std::size_t f) const {
-        return values_[base(c / lanes, b) + f * lanes + c % lanes];
+    double& value(std::size_t seat, std::size_t b, std::size_t f) { return values_[place(seat, b, f)]; }
+    double value(std::size_t seat, std::size_t b, std::size_t f) const { return values_[place(seat, b, f)]; }
+    std::size_t seat_of(std::size_t cluster) const { return static_cast<std::size_t>(seat_[cluster]); }
+    std::size_t seat_of(std::int32_t cluster) const { return seat_of(static_cast<std::size_t>(cluster)); }
+    /// Clusters take seats 0, 1, ... in this order.
+    void seat(const std::vector<std::int32_t>& order) {
+        if (order == sitting_) return;
+        const std::vector<double> values = values_, strength = strength_;
+        const std::vector<std::int32_t> intact = intact_;
+        for (std::size_t to = 0; to < size_; ++to) {
+            const std::size_t from = seat_of(order[to]);
+            intact_[to] = intact[from];
+            strength_[to] = strength[from];
+            for (std::size_t b = 0; b < bonds(); ++b)
+                for (std::size_t f = 0; f < fields; ++f) value(to, b, f) = values[place(from, b, f)];
+        }
+        sitting_ = order;
+        for (std::size_t k = 0; k < size_; ++k)
+            seat_[static_cast<std::size_t>(sitting_[k])] = static_cast<std::int32_t>(k);
     }
     std::size_t end_a(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].a); }
     std::size_t end_b(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].b); }
-    void put(std::size_t c, std::size_t b, const state& s) {
-        value(c, b, normal_force) = s.n;
-        value(c, b, twist) = s.mt;
+    state carried(std::size_t seat, std::size_t b) const {
+        return {value(seat, b, normal_force),
+                {value(seat, b, shear), value(seat, b, shear + 1), value(seat, b, shear + 2)},
+                value(seat, b, twist),
+                {value(seat, b, bending), value(seat, b, bending + 1), value(seat, b, bending + 2)}};
+    }
+    void put(std::size_t seat, std::size_t b, const state& s) {
+        value(seat, b, normal_force) = s.n;
+        value(seat, b, twist) = s.mt;
         for (int a = 0; a < 3; ++a) {
-            value(c, b, shear + static_cast<std::size_t>(a)) = s.v[a];
-            value(c, b, bending + static_cast<std::size_t>(a)) = s.mb[a];
+            value(seat, b, shear + static_cast<std::size_t>(a)) = s.v[a];
+            value(seat, b, bending + static_cast<std::size_t>(a)) = s.mb[a];
         }
     }
 
@@ -214,17 +288,16 @@ class cluster_pool {
         store8(dissipated.data(), load8(dissipated.data()) + 0.5 * h * work);
     }
 
-    /// Stretches all bonds of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
-    bool gather(std::size_t batch, double h, const double* v, const double* w, double* f, double* t,
-                const double* axis) {
-        const std::size_t n = shape_.size(), m = bonds();
+    /// Stretches the bonds `left` of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
+    bool gather(std::size_t batch, std::span<const std::size_t> left, double h, const double* v, const double* w,
+                double* f, double* t, const double* axis) {
+        const std::size_t n = shape_.size();
         std::fill(f, f + n * 3 * lanes, 0.0);
         std::fill(t, t + n * 3 * lanes, 0.0);
         lane8 worst = lane8{} - 1.0;
         const lane8 strength = load8(strength_.data() + batch * lanes);
-        for (std::size_t b = 0; b < m; ++b) {
+        for (const std::size_t b : left) {
             double* const s = values_.data() + base(batch, b);
-            if (all_zero8(s + alive * lanes)) continue; // in the end most bonds are broken
             const constants& c = shape_.bond[b];
             const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
             const double ra = shape_.arm[b].a, rb = shape_.arm[b].b;
@@ -252,12 +325,13 @@ class cluster_pool {
 
     /// Reports and removes the bonds that fail after a gather, and takes their loads off the sums: a failed bond lets
     /// go at once.
-    void collect(std::size_t batch, const double* axis, double* f, double* t, std::vector<break_report>& broken) {
+    void collect(std::size_t batch, int step, const double* axis, double* f, double* t,
+                 std::vector<break_report>& broken) {
         for (std::size_t b = 0; b < bonds(); ++b)
             for (std::size_t l = 0; l < lanes; ++l) {
-                const std::size_t c = batch * lanes + l;
-                if (c >= size_ || !is_intact(c, b)) continue;
-                const state s = get(c, b);
+                const std::size_t c = batch * lanes + l; // its seat
+                if (c >= size_ || value(c, b, alive) == 0.0) continue;
+                const state s = carried(c, b);
                 const failure_flags fails = failing(shape_.bond[b], s, strength_[c]);
                 if (!fails.tension && !fails.shear) continue;
                 const vec3 normal{axis[(b * 3) * lanes + l], axis[(b * 3 + 1) * lanes + l],
@@ -270,8 +344,8 @@ class cluster_pool {
                     t[end_a(b) * 3 * lanes + k] -= wr.moment_a[a];
                     t[end_b(b) * 3 * lanes + k] -= wr.moment_b[a];
                 }
-                broken.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(b),
-                                  fails.tension ? break_mode::tension : break_mode::shear, s});
+                broken.push_back({sitting_[c], static_cast<std::int32_t>(b),
+                                  fails.tension ? break_mode::tension : break_mode::shear, s, step});
                 put(c, b, {});
                 value(c, b, alive) = 0.0;
                 --intact_[c];
@@ -281,9 +355,14 @@ class cluster_pool {
     lattice shape_;
     double damping_ = 0.0;
     std::size_t size_ = 0;
-    std::vector<double> values_;       ///< [batch][bond][field][lane]
-    std::vector<std::int32_t> intact_; ///< per cluster
-    std::vector<double> strength_;     ///< per cluster, over that of the material
+    std::vector<double> values_;        ///< [batch][bond][field][lane]
+    std::vector<std::int32_t> intact_;  ///< per seat
+    std::vector<double> strength_;      ///< per seat, over that of the material
+    std::vector<std::int32_t> seat_;    ///< per cluster: lane seat % 8 of batch seat / 8
+    std::vector<std::int32_t> sitting_; ///< per seat: who sits there
+    std::size_t occupied_ = 0;          ///< clusters behind have no bonds
+    std::size_t packed_clusters_ = 0;   ///< when seats were given last
+    std::int64_t packed_bonds_ = 0;
 };
 
 } // namespace clast::bonds

@@ -715,23 +715,21 @@ template <triaxial_policies P> class engine {
         if constexpr (breakable) {
             bonds::cluster_pool& pool = broken_.pools[which];
             const std::size_t n = pool.shape().size();
+            pool.pack();
             std::vector<std::vector<bonds::break_report>> reports(pool.batches());
             settings.run.for_each(
                 pool.batches(),
                 [&](std::size_t batch) {
-                    std::array<bool, lanes> live{};
-                    for (std::size_t l = 0; l < lanes; ++l) {
-                        const std::size_t c = batch * lanes + l;
-                        live[l] = c < pool.size() && pool.intact_bonds(c) > 0;
-                    }
-                    if (std::none_of(live.begin(), live.end(), [](bool b) { return b; })) return;
                     std::vector<bonds::ball_motion> balls(lanes * n);
                     std::vector<bonds::pebble_load> load(lanes * n);
                     std::vector<vec3> moved(lanes * n);
                     std::array<std::size_t, lanes> first{};
+                    std::array<bool, lanes> live{};
                     for (std::size_t l = 0; l < lanes; ++l) {
+                        const std::int32_t cluster = pool.living(batch, l);
+                        live[l] = cluster >= 0;
                         if (!live[l]) continue;
-                        first[l] = at(grains.grains[at(broken_.members[which][batch * lanes + l])].first);
+                        first[l] = at(grains.grains[at(broken_.members[which][at(cluster)])].first);
                         for (std::size_t k = 0; k < n; ++k) {
                             const std::size_t b = ball(static_cast<std::int32_t>(first[l] + k));
                             const body_motion& m = grains.motion[b];
@@ -755,9 +753,11 @@ template <triaxial_policies P> class engine {
                     }
                 },
                 1);
+            std::vector<bonds::break_report> broken;
+            for (const auto& batch : reports) broken.insert(broken.end(), batch.begin(), batch.end());
+            std::sort(broken.begin(), broken.end(), bonds::told_before);
             const std::size_t listed = fast_.size();
-            for (const auto& batch : reports)
-                for (const bonds::break_report& r : batch) record_break(which, r);
+            for (const bonds::break_report& r : broken) record_break(which, r);
             if (fast_.size() != listed) index_fast();
         }
     }
