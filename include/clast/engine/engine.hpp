@@ -82,7 +82,8 @@ struct breakage_state {
         vec3 force, moment;
         double dissipated = 0.0;
     };
-    std::vector<mean_load> fast_load;   ///< per grain: mean over the sub-steps of this step
+    std::vector<mean_load> fast_load;   ///< per grain of the halo: mean over the sub-steps of this step
+    std::vector<std::size_t> halo_list; ///< the grains of the halo in this step
     std::vector<fracture_event> events; ///< since the last call of take_events
     double lag = 0.0;                   ///< s: how far the motion of balls trails t_n between steps (half a step)
     double time = 0.0;
@@ -658,7 +659,10 @@ template <triaxial_policies P> class engine {
         if constexpr (breakable) {
             const double span = broken_.lag + 0.5 * dt_;
             const double h = span / fast_steps_, share = 1.0 / fast_steps_;
-            broken_.fast_load.assign(grains.grain_count(), {});
+            broken_.fast_load.resize(grains.grain_count());
+            broken_.halo_list.clear();
+            for (std::size_t g = 0; g < grains.grain_count(); ++g)
+                if (broken_.halo[g] != 0) broken_.halo_list.push_back(g), broken_.fast_load[g] = {};
             std::fill(work_loads_.begin(), work_loads_.end(), boundaries::facet_load{});
             for (int k = 0; k < fast_steps_; ++k) {
                 const double ahead = (k + 0.5) * h - broken_.lag;
@@ -666,8 +670,8 @@ template <triaxial_policies P> class engine {
                 evaluate_fast(h, ahead);
                 couplings_.clear(); // those of the last sub-step are kept
                 add_loads(fast_wall_, share, work_loads_, &couplings_);
-                settings.run.for_each(grains.grain_count(), [&](std::size_t g) {
-                    if (broken_.halo[g] == 0) return;
+                settings.run.for_each(broken_.halo_list.size(), [&](std::size_t i) {
+                    const std::size_t g = broken_.halo_list[i];
                     const body_motion& m = grains.motion[g];
                     const load_sum s = sum_fast(g, m.x + ahead * m.v, ahead);
                     breakage_state::mean_load& mean = broken_.fast_load[g];
