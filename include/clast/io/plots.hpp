@@ -161,18 +161,6 @@ inline std::string hex(const rgb& c) {
     return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]));
 }
 
-/// Colours of the cross-section (paper Fig. 16: unbroken red, replaced green; loose fragments in a lighter green).
-constexpr rgb section_colour(pebble_state s) {
-    switch (s) {
-    case pebble_state::clump:
-        return {187, 62, 52};
-    case pebble_state::bonded:
-        return {58, 140, 84};
-    default:
-        return {164, 207, 128};
-    }
-}
-
 /// Writes a figure's script and data and draws it; collects what went wrong.
 class plot_folder {
   public:
@@ -361,7 +349,7 @@ inline std::optional<window> common_window(std::initializer_list<const specimen_
 }
 
 /// The row at the bottom of a page (in points) that names the colours.
-inline std::string legend(double page_w, double page_h, rgb (*colour)(pebble_state)) {
+inline std::string legend(double page_w, double page_h) {
     // a key of gnuplot breaks its row where it guesses that text is too wide, so the entries are placed by hand
     constexpr double mark = 16.0, letter = 6.4, gap = 22.0;
     constexpr std::pair<pebble_state, std::string_view> entries[] = {
@@ -379,7 +367,7 @@ inline std::string legend(double page_w, double page_h, rgb (*colour)(pebble_sta
             std::back_inserter(script),
             "    set label \"{}\" at screen {:.5f}, screen {:.5f} left offset character 0.4, 0 point pointtype 7 "
             "pointsize 1.2 linecolor rgb \"{}\" textcolor rgb dark font \",12\"\n",
-            text, x / page_w, 20.0 / page_h, hex(colour(state)));
+            text, x / page_w, 20.0 / page_h, hex(colour_of(state)));
         x += mark + letter * static_cast<double>(text.size()) + gap;
     }
     return script + "    plot NaN notitle";
@@ -448,7 +436,7 @@ inline void draw_specimen(plot_folder& plots, const plot_request& request) {
     plots.draw("specimen", fill_in(std::string(specimen_script), {{"W", fmt::format("{:.0f}", page_w)},
                                                                   {"H", fmt::format("{:.0f}", page_h)},
                                                                   {"PANELS", panels},
-                                                                  {"LEGEND", legend(page_w, page_h, colour_of)}}));
+                                                                  {"LEGEND", legend(page_w, page_h)}}));
 }
 
 /// Circles in which the plane coordinate[axis] = value cuts the pebbles, grain by grain: first a dark rim of the whole
@@ -471,7 +459,7 @@ inline std::string section_circles(std::span<const pebble_view> pebbles, int axi
                 const pebble_view& p = pebbles[cut[i]];
                 const double d = p.position[axis] - value;
                 const double r = std::sqrt(p.radius * p.radius - d * d) - (fill ? rim : 0.0);
-                const rgb c = fill ? section_colour(p.state) : rgb{45, 30, 30};
+                const rgb c = fill ? colour_of(p.state) : rgb{45, 30, 30};
                 const int code =
                     (static_cast<int>(c[0]) << 16) | (static_cast<int>(c[1]) << 8) | static_cast<int>(c[2]);
                 if (r > 0.0)
@@ -530,7 +518,7 @@ inline void draw_section(plot_folder& plots, const specimen_view& view) {
     plots.draw("section", fill_in(std::string(section_script), {{"W", fmt::format("{:.0f}", page_w)},
                                                                 {"H", fmt::format("{:.0f}", page_h)},
                                                                 {"PANELS", panels},
-                                                                {"LEGEND", legend(page_w, page_h, section_colour)}}));
+                                                                {"LEGEND", legend(page_w, page_h)}}));
 }
 
 /// A condition of gnuplot that holds for these stages.

@@ -73,7 +73,7 @@ do for [kind in "svg png"] {
     plot "@SERIES@" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_tension")+column("broken_shear")) with steps linewidth 2.2 linecolor rgb dark title "all broken bonds", \
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_tension")) with steps linewidth 1.6 linecolor rgb blue title "in tension", \
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_shear")) with steps linewidth 1.6 linecolor rgb red title "in shear", \
-         "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("replaced")) with steps linewidth 1.6 dashtype 2 linecolor rgb green title "replaced grains"
+         "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("replaced")) with steps linewidth 2.2 linecolor rgb green title "replaced grains"
     unset output
 }
 )gp";

@@ -21,6 +21,7 @@ namespace clast::detail {
 /// Red, green, blue, 0 to 255.
 using rgb = std::array<double, 3>;
 
+/// What a grain's state looks like in every picture; only what broke is warm, which the colour-blind see, too.
 constexpr rgb colour_of(pebble_state s) {
     switch (s) {
     case pebble_state::clump:
