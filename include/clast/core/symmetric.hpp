@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 #include <clast/core/vector.hpp>
@@ -116,9 +115,11 @@ inline principal_system principal_values(square_matrix m) {
             }
         if (done) break;
     }
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return m(a, a) < m(b, b); });
+    std::vector<std::size_t> order; // by insertion: few values, and std::stable_sort takes long to compile
+    for (std::size_t k = 0; k < n; ++k)
+        order.insert(std::upper_bound(order.begin(), order.end(), k,
+                                      [&](std::size_t a, std::size_t b) { return m(a, a) < m(b, b); }),
+                     k);
     principal_system out{std::vector<double>(n), square_matrix(n)};
     for (std::size_t k = 0; k < n; ++k) {
         out.values[k] = m(order[k], order[k]);

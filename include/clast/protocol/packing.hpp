@@ -55,6 +55,8 @@ inline void add_cloud(specimen& s, std::int32_t shape_index, std::size_t count, 
     struct placed {
         vec3 centre;
         quaternion q;
+        std::int64_t slab; // along z
+        double angle;
     };
     std::vector<placed> cloud;
     random_stream random{seed, 0};
@@ -74,13 +76,12 @@ inline void add_cloud(specimen& s, std::int32_t shape_index, std::size_t count, 
                     for (const vec3& other : bucket(x, y, z)) free = free && norm2(other - c) > apart * apart;
         if (!free) continue;
         bucket(i, j, k).push_back(c);
-        cloud.push_back({c, orientation(random)});
+        cloud.push_back(
+            {c, orientation(random), static_cast<std::int64_t>((c.z - low) / (2.0 * apart)), std::atan2(c.y, c.x)});
     }
-    const auto slab = [&](const placed& p) { return static_cast<std::int64_t>((p.centre.z - low) / (2.0 * apart)); };
-    std::stable_sort(cloud.begin(), cloud.end(), [&](const placed& a, const placed& b) {
-        const auto sa = slab(a), sb = slab(b);
-        if (sa != sb) return sa < sb;
-        return std::atan2(a.centre.y, a.centre.x) < std::atan2(b.centre.y, b.centre.x);
+    // not std::stable_sort, which takes long to compile
+    std::sort(cloud.begin(), cloud.end(), [](const placed& a, const placed& b) {
+        return a.slab != b.slab ? a.slab < b.slab : a.angle != b.angle ? a.angle < b.angle : a.centre.z < b.centre.z;
     });
     for (const placed& p : cloud) s.add(shape_index, p.centre, p.q);
 }

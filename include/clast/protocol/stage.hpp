@@ -61,16 +61,23 @@ struct condition {
     std::function<double(const stage_view&)> progress;
 };
 
+namespace detail {
+/// One text and one pair of functions for both operators: what they would capture apart costs time to compile.
+inline condition join(condition a, condition b, bool both) {
+    return {a.text + (both ? " and " : " or ") + b.text,
+            [a = std::move(a.met), b = std::move(b.met), both](const stage_view& v) {
+                return both ? a(v) && b(v) : a(v) || b(v);
+            },
+            [a = std::move(a.progress), b = std::move(b.progress), both](const stage_view& v) {
+                return both ? std::min(a(v), b(v)) : std::max(a(v), b(v));
+            }};
+}
+} // namespace detail
+
 /// Both; progress of the slower.
-inline condition operator&&(condition a, condition b) {
-    return {a.text + " and " + b.text, [a, b](const stage_view& v) { return a.met(v) && b.met(v); },
-            [a, b](const stage_view& v) { return std::min(a.progress(v), b.progress(v)); }};
-}
+inline condition operator&&(condition a, condition b) { return detail::join(std::move(a), std::move(b), true); }
 /// Either; progress of the faster.
-inline condition operator||(condition a, condition b) {
-    return {a.text + " or " + b.text, [a, b](const stage_view& v) { return a.met(v) || b.met(v); },
-            [a, b](const stage_view& v) { return std::max(a.progress(v), b.progress(v)); }};
-}
+inline condition operator||(condition a, condition b) { return detail::join(std::move(a), std::move(b), false); }
 
 /// Conditions in words of the field: `until::axial_strain(25 * percent)`.
 namespace until {
