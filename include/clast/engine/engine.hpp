@@ -156,7 +156,7 @@ template <triaxial_policies P> class engine {
             grains.losses.resize(grains.motion.size());
         }
         smallest_mass_ = grains.smallest_mass();
-        skin_ = start_skin_ = settings.skin > 0.0 ? settings.skin : 0.003 * mean_bounding_radius();
+        skin_ = start_skin_ = settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius();
         wide_.margin = 50.0 * skin_;
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         if constexpr (specimen_type::turns) sort_pebbles();
