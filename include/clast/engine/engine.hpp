@@ -1055,8 +1055,9 @@ template <triaxial_policies P> class engine {
             margins_[b] = grains.is_swept(b) ? grains.surface_speed(b, flow) : 0.0;
         });
         const double sum = settings.run.sum(grains.body_count(), 0.0, [&](std::size_t b) { return margins_[b]; });
-        const double usual =
-            std::max(sum / static_cast<double>(grains.body_count()), std::numeric_limits<double>::min());
+        if (!std::isfinite(sum)) explain_nan();
+        const double usual = std::max(sum / static_cast<double>(std::max<std::size_t>(1, grains.body_count())),
+                                      std::numeric_limits<double>::min());
         const double most = std::max(0.5 * skin_, 0.125 * wide_.margin); // or it would make a search due at once
         const auto margin = [&](double speed) { return std::min(0.5 * skin_ * (1.0 + 2.0 * speed / usual), most); };
         settings.run.for_each(grains.body_count(), [&](std::size_t b) { margins_[b] = margin(margins_[b]); });
@@ -1104,7 +1105,7 @@ template <triaxial_policies P> class engine {
     double mean_bounding_radius() const {
         double sum = 0.0;
         for (std::size_t b = 0; b < grains.body_count(); ++b) sum += grains.bounding_radius(b);
-        return sum / static_cast<double>(grains.body_count());
+        return sum / static_cast<double>(std::max<std::size_t>(1, grains.body_count()));
     }
     /// The skin for the lists about to be made: open pairs cost in every step and grow with the skin, renewals become
     /// rarer with it, so that the sum is least where
