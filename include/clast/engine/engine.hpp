@@ -161,8 +161,8 @@ template <triaxial_policies P> class engine {
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         if constexpr (specimen_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
-        choose_margins();
         search();
+        choose_margins();
         pick();
         estimate_step(true);
     }
@@ -198,8 +198,8 @@ template <triaxial_policies P> class engine {
     void set_boundary(boundary_type b) {
         boundary = std::move(b);
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        choose_margins();
         search();
+        choose_margins();
         pick();
     }
     /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
@@ -229,7 +229,7 @@ template <triaxial_policies P> class engine {
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(wide_, slow_, slow_wall_, since_, margins_, wall_margin_, listed_, unlisted_, stretch_, widest_, skin_,
-          skin_used_up_, listed_at_step_, open_pairs_);
+          start_skin_, skin_used_up_, listed_at_step_, open_pairs_);
         if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, broken_);
         slow_of_.reset();
         split_ranges();                                                  // as the threads of this run ask for
@@ -984,15 +984,15 @@ template <triaxial_policies P> class engine {
         wide_.since.wall_travel += boundary.fastest() * dt_;
         if constexpr (periodic) {
             stretch_ = stretch_since(since_);
-            since_.wall_travel = strain_travel(stretch_, skin_);
+            since_.wall_travel = strain_travel(stretch_ - vec3{1.0, 1.0, 1.0});
         }
     }
 
     // ---- lists ----------------------------------------------------------------------------------------------------
     //
-    // A search names all pairs within a wide margin; the lists hold those of them within the skin, and are renewed from
-    // what the search has found until that margin is used up. To pick from sorted pairs costs a tenth of a search, so
-    // the skin may be narrow, and hardly an open pair is evaluated.
+    // A search names all pairs within a wide margin; the lists hold those of them that may touch while every body goes
+    // a small margin of its own, and are renewed from what the search has found until the wide margin is used up. To
+    // pick from sorted pairs costs a tenth of a search, so margins may be small, and hardly an open pair is evaluated.
 
     /// Where displacements count from.
     struct origin {
@@ -1011,7 +1011,7 @@ template <triaxial_policies P> class engine {
         double margin = 0.0; ///< largest gap of what was found (m)
         bool used_up = false;
         std::int64_t renewals = 0; ///< of lists since then
-        std::size_t beyond = 0;    ///< pairs outside the skin then
+        std::size_t beyond = 0;    ///< pairs that were not listed then
 
         template <class A> void archive(A& a) { a(slow, fast, wall, since, margin, used_up, renewals, beyond); }
     };
@@ -1038,13 +1038,13 @@ template <triaxial_policies P> class engine {
             for (int a = 0; a < 3; ++a) s[a] = boundary.edges()[a] / since.edges[a];
         return s;
     }
-    /// How much the strain of a periodic cell brings two grains together whose gap was `gap` at most (m).
-    double strain_travel(const vec3& stretch, double gap) const {
-        const vec3 strain = stretch - vec3{1.0, 1.0, 1.0};
-        return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + gap);
+    /// How much a strain, or a rate of strain, of a periodic cell brings two grains together that a search names (m,
+    /// m/s). Those farther apart come nearer by more, but not by all that they are farther apart.
+    double strain_travel(const vec3& strain) const {
+        return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + wide_.margin);
     }
     /// How far (m) every body may go before lists are renewed: half the skin, and more the faster it is. So a few fast
-    /// bodies do not make renewals due for all, nor margins wide.
+    /// bodies neither make renewals due for all nor the lists of all long.
     void choose_margins() {
         vec3 flow;
         if constexpr (periodic)
@@ -1058,13 +1058,13 @@ template <triaxial_policies P> class engine {
         if (!std::isfinite(sum)) explain_nan();
         const double usual = std::max(sum / static_cast<double>(std::max<std::size_t>(1, grains.body_count())),
                                       std::numeric_limits<double>::min());
-        const double most = std::max(0.5 * skin_, 0.125 * wide_.margin); // or it would make a search due at once
+        const double most = 0.125 * wide_.margin; // or the search would not do, and the next be due at once
         const auto margin = [&](double speed) { return std::min(0.5 * skin_ * (1.0 + 2.0 * speed / usual), most); };
         settings.run.for_each(grains.body_count(), [&](std::size_t b) { margins_[b] = margin(margins_[b]); });
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls) margins_[ball(p)] = margin(norm(grains.motion[ball(p)].v));
         double speed = boundary.fastest();
-        if constexpr (periodic) speed = std::max({std::abs(flow.x), std::abs(flow.y), std::abs(flow.z)}) * widest_;
+        if constexpr (periodic) speed = strain_travel(flow);
         wall_margin_ = margin(speed);
     }
     /// Whether the last search has found all pairs that the lists need now.
@@ -1078,7 +1078,7 @@ template <triaxial_policies P> class engine {
                 const std::size_t p = at(broken_.balls[k]);
                 return norm(grains.pebbles[p].x - wide_.since.balls[p]) + margins_[ball(broken_.balls[k])];
             });
-        if constexpr (periodic) wide_.since.wall_travel = strain_travel(stretch, wide_.margin);
+        if constexpr (periodic) wide_.since.wall_travel = strain_travel(stretch - vec3{1.0, 1.0, 1.0});
         const double travel = wide_.since.wall_travel;
         const double nearer = periodic ? 2.0 * largest + travel : std::max(2.0 * largest, largest + travel);
         return nearer + wall_margin_ < wide_.margin;
@@ -1099,7 +1099,7 @@ template <triaxial_policies P> class engine {
         choose_skin();
         choose_margins();
         if (!must_search_ && !wide_lists_hold()) must_search_ = wide_.used_up = true;
-        if (must_search_) search();
+        if (must_search_) search(), choose_margins();
         pick();
     }
     double mean_bounding_radius() const {
