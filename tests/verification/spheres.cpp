@@ -138,6 +138,32 @@ TEST_CASE("a gas of spheres in a cell keeps its momentum to rounding and its ene
     CHECK(farthest < 0.132);
 }
 
+TEST_CASE("no overlap goes unseen, however unlike the speeds, in a cell as small as it may be") {
+    sphere_specimen grains = cloud(4, 0.1);
+    for (std::size_t k = 0; k < grains.pebble_count(); k += 7) grains.pebbles[k].v = 30.0 * grains.pebbles[k].v;
+    auto s = settings<in_a_cell>(0.0, 0.0, 1e-4);
+    s.largest_step = 4e-6;
+    engine<in_a_cell> e(s, grains, boundaries::periodic_cell({0.088, 0.088, 0.088}));
+    e.boundary.axes[0] = {.rate = 1.0};
+    std::size_t met = 0, seen = 0;
+    for (int step = 0; step < 4000; ++step) {
+        const auto before = e.grains.pebbles;
+        const vec3 edges = e.boundary.edges();
+        e.step();
+        for (std::size_t i = 0; i < before.size(); ++i)
+            for (std::size_t j = i + 1; j < before.size(); ++j) {
+                vec3 d = before[j].x - before[i].x;
+                for (int a = 0; a < 3; ++a) d[a] -= edges[a] * std::round(d[a] / edges[a]);
+                met += norm(d) < before[i].radius + before[j].radius;
+            }
+        e.each_contact([&](const force_row& row, const pebble_pair&) { seen += row.depth > 0.0; });
+    }
+    CHECK(met > 1000);
+    CHECK(seen == met);
+    CHECK(e.totals().rebuilds > 3);
+    CHECK(e.totals().renewals > 3 * e.totals().rebuilds);
+}
+
 TEST_CASE("servos bring a periodic packing to their stress, and the work of the cell goes where the audit says") {
     auto e = packed(1e-3);
     const mat3 sigma = measure::love_weber(e, e.boundary.volume());
