@@ -227,7 +227,8 @@ template <class P> int run_bundle(const options& o, const char* name) {
                    .threads = test.setup().threads,
                    .bundle = name,
                    .checksum = checksum.value,
-                   .more = {{"list_rebuilds", static_cast<double>(test.sim().totals().rebuilds)},
+                   .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
+                            {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
                             {"sub_steps_of_light_bodies", static_cast<double>(test.sim().fast_steps())},
                             {"tile_steps_at_speed_limit_share",
                              counters.tile_steps > 0

@@ -1496,7 +1496,7 @@ template <triaxial_policies P> class engine {
         const std::size_t n = slow_.size(), bodies = grains.body_count();
         const std::size_t count = std::clamp<std::size_t>(n / std::max<std::size_t>(1, settings.contacts_per_thread), 1,
                                                           static_cast<std::size_t>(settings.run.threads()));
-        ranges_.assign(count, {});
+        ranges_ = std::vector<body_range>(count);
         std::vector<std::size_t> range_of(bodies, 0);
         {
             std::size_t row = 0, body = 0;
