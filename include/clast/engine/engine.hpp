@@ -1593,6 +1593,7 @@ template <triaxial_policies P> class engine {
         // grow slowly: contacts that are about to form are not in the sum yet
         dt_ = first ? limit : std::min(limit, 1.02 * dt_);
         if constexpr (breakable) estimate_substeps();
+        if constexpr (!has_criterion) slow_of_.reset(); // a tenth of the memory, and no one else asks for it
         estimate_due_ = false;
     }
 
