@@ -76,11 +76,12 @@ struct linear {
     }
 
     /// Repulsion (N): all there is where nothing rubs.
-    template <class T> T normal_force(const overlap<T>& o, const motion<T>&) const {
+    template <class T> [[gnu::always_inline]] T normal_force(const overlap<T>& o, const motion<T>&) const {
         return kn * (o.depth > 0.0 ? o.depth : T(0.0));
     }
     template <class T>
-    response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double /*dt*/) const {
+    [[gnu::always_inline]] response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h,
+                                                  double /*dt*/) const {
         const T fn = normal_force(o, m);
         return tangential_spring(o, m, h, fn, T(ks), mu * fn);
     }

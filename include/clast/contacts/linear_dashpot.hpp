@@ -28,10 +28,12 @@ struct linear_dashpot {
     static constexpr bool constant_stiffness = true;
 
     /// Force along the normal (N), repulsion positive: all there is where nothing rubs.
-    template <class T> T normal_force(const overlap<T>& o, const motion<T>& m) const {
+    template <class T> [[gnu::always_inline]] T normal_force(const overlap<T>& o, const motion<T>& m) const {
         return o.depth > 0.0 ? kn * o.depth + damper(o, m) : T(0.0);
     }
-    template <class T> response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h, double dt) const {
+    template <class T>
+    [[gnu::always_inline]] response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h,
+                                                  double dt) const {
         const T fn = normal_force(o, m);
         response<T> r = tangential_spring(o, m, h, fn, T(ks), mu * (fn > 0.0 ? fn : -fn));
         r.dissipated += o.depth > 0.0 ? damper(o, m) * m.approach * dt : T(0.0);
@@ -45,7 +47,7 @@ struct linear_dashpot {
     constexpr double shear_stiffness(const overlap<double>&) const { return ks; }
 
   private:
-    template <class T> T damper(const overlap<T>& o, const motion<T>& m) const {
+    template <class T> [[gnu::always_inline]] T damper(const overlap<T>& o, const motion<T>& m) const {
         const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;
         const T of_spheres = (4.0 / 3.0 * std::numbers::pi * density) * (i3 * j3 / (i3 + j3));
         const T reduced = mass > 0.0 ? T(0.5 * mass) : of_spheres;
