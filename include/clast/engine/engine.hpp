@@ -992,7 +992,8 @@ template <triaxial_policies P> class engine {
     //
     // A search names all pairs within a wide margin; the lists hold those of them that may touch while every body goes
     // a small margin of its own, and are renewed from what the search has found until the wide margin is used up. To
-    // pick from sorted pairs costs a tenth of a search, so margins may be small, and hardly an open pair is evaluated.
+    // pick from sorted pairs costs a fifth of a search or less, so margins may be small, and hardly an open pair is
+    // evaluated.
 
     /// Where displacements count from.
     struct origin {
