@@ -162,7 +162,6 @@ template <triaxial_policies P> class engine {
         if constexpr (specimen_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
         search();
-        choose_margins();
         pick();
         estimate_step(true);
     }
@@ -199,7 +198,6 @@ template <triaxial_policies P> class engine {
         boundary = std::move(b);
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         search();
-        choose_margins();
         pick();
     }
     /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
@@ -338,6 +336,9 @@ template <triaxial_policies P> class engine {
         std::size_t a = 0, b = slow_shared_;
         while (a < slow_shared_ || b < slow_.size())
             f(b == slow_.size() || (a < slow_shared_ && slow_order_[a] < slow_order_[b]) ? a++ : b++);
+    }
+    template <class F> void each_fast(F&& f) const {
+        for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
     }
     /// Order of the lists: by first body, second pebble, first pebble.
     auto pair_order() const {
@@ -980,8 +981,9 @@ template <triaxial_policies P> class engine {
     }
     void finish_boundary() {
         boundary.advance(dt_);
-        since_.wall_travel += boundary.fastest() * dt_;
-        wide_.since.wall_travel += boundary.fastest() * dt_;
+        const double way = boundary.fastest() * dt_;
+        since_.wall_travel += way;
+        wide_.since.wall_travel += way;
         if constexpr (periodic) {
             stretch_ = stretch_since(since_);
             since_.wall_travel = strain_travel(stretch_ - vec3{1.0, 1.0, 1.0});
@@ -1100,7 +1102,7 @@ template <triaxial_policies P> class engine {
         choose_skin();
         choose_margins();
         if (!must_search_ && !wide_lists_hold()) must_search_ = wide_.used_up = true;
-        if (must_search_) search(), choose_margins();
+        if (must_search_) search();
         pick();
     }
     double mean_bounding_radius() const {
@@ -1227,24 +1229,22 @@ template <triaxial_policies P> class engine {
                     wide_.wall.push_back(static_cast<std::int32_t>(p));
         }
         set_origin(wide_.since);
+        choose_margins(); // within the new wide margin
         wide_.renewals = 0;
         must_search_ = false;
         ++totals_.rebuilds;
     }
 
-    /// The lists of contacts: what is within the skin of that which the last search has found. Histories carry over.
+    /// The lists of contacts: what margins ask for of that which the last search has found. Histories carry over.
     void pick() {
         contact_list<history> slow, fast;
-        const auto each_old_fast = [&](auto&& f) {
-            for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
-        };
         open_pairs_ = 0;
         for (const bool light : {false, true}) {
             contact_list<history>& list = light ? fast : slow;
             pick(light ? wide_.fast : wide_.slow, list);
             list.resize();
             list.take_histories(slow_, pair_order(), [&](auto&& f) { each_slow(f); });
-            list.take_histories(fast_, pair_order(), each_old_fast);
+            list.take_histories(fast_, pair_order(), [&](auto&& f) { each_fast(f); });
         }
         if (wide_.renewals++ == 0) wide_.beyond = wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size();
         slow_ = std::move(slow);
@@ -1318,9 +1318,7 @@ template <triaxial_policies P> class engine {
     void add_ghosts(std::vector<searches::sphere>& spheres, std::vector<std::uint8_t>& image) {
         if constexpr (periodic) {
             const vec3 edges = boundary.edges();
-            double widest = 0.0;
             for (searches::sphere& s : spheres) {
-                widest = std::max(widest, 2.0 * s.radius);
                 vec3 steps;
                 for (int a = 0; a < 3; ++a) steps[a] = -std::floor(s.centre[a] / edges[a] + 0.5);
                 if (steps == vec3{}) continue;
@@ -1331,7 +1329,7 @@ template <triaxial_policies P> class engine {
                 grains.place(at(s.id));
                 s.centre = grains.centre(at(s.id));
             }
-            const double reach = widest + wide_.margin;
+            const double reach = widest_ + wide_.margin;
             if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
                 throw run_error({"the periodic cell is too small for its grains",
                                  fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
@@ -1374,7 +1372,7 @@ template <triaxial_policies P> class engine {
             if constexpr (periodic) s.centre += by;
             return s;
         };
-        // all are written, those within the skin are kept: no branch that depends on the packing
+        // all are written, those within the margin are kept: no branch that depends on the packing
         const auto collect = [&](const searches::sphere& body, const vec3& by, const searches::sphere& other,
                                  std::vector<std::int32_t>& kept) {
             const index_range own =
@@ -1446,11 +1444,8 @@ template <triaxial_policies P> class engine {
 
     void index_fast() {
         fast_of_ = incidence(
-            grains.motion.size(), fast_,
-            [&](auto&& f) {
-                for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
-            },
-            fast_wall_, [&](std::int32_t p) { return grains.body_of(p); });
+            grains.motion.size(), fast_, [&](auto&& f) { each_fast(f); }, fast_wall_,
+            [&](std::int32_t p) { return grains.body_of(p); });
     }
     /// Which rows act on a swept body: made when it is asked for the first time after a renewal.
     void index_slow() {
