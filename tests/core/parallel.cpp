@@ -67,6 +67,23 @@ TEST_CASE("a sum of vectors and a count: any type with +=") {
     }
 }
 
+TEST_CASE("the indices for which something holds, ascending, and each asked once") {
+    for (const std::size_t n : lengths) {
+        const std::vector<double> x = rough(n);
+        std::vector<std::uint32_t> positive;
+        for (std::uint32_t i = 0; i < n; ++i)
+            if (x[i] > 0.0) positive.push_back(i);
+        for (const int threads : counts) {
+            const execution run(threads);
+            std::vector<int> asked(n, 0);
+            CHECK(run.where(n, [&](std::size_t i) { return ++asked[i], x[i] > 0.0; }) == positive);
+            CHECK(std::count(asked.begin(), asked.end(), 1) == static_cast<std::ptrdiff_t>(n));
+            CHECK(run.where(n, [](std::size_t) { return true; }).size() == n);
+            CHECK(run.where(n, [](std::size_t) { return false; }).empty());
+        }
+    }
+}
+
 TEST_CASE("a maximum is that of a plain loop, and not below its floor") {
     for (const std::size_t n : lengths) {
         const std::vector<double> x = rough(n);

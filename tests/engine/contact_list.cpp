@@ -50,17 +50,44 @@ TEST_CASE("histories move to the pairs that both lists have, in any order they s
     list.pairs = {{0, 2}, {1, 2}, {2, 4}, {4, 5}, {0, 9}, {1, 9}};
     old.resize(), list.resize();
     for (std::size_t k = 0; k < old.size(); ++k) old.history[k].x = static_cast<double>(k + 1);
-    list.take_histories(old, by_second, each_of(old));
-    const std::vector<double> expected = {2, 3, 0, 0, 5, 0};
-    for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.history[k].x == expected[k]);
+    const auto taken = [&] {
+        std::vector<double> x;
+        for (const auto& h : list.history) x.push_back(h.x);
+        return x;
+    };
+    list.take_histories(list.behind(), old, old.behind(), by_second);
+    CHECK(taken() == std::vector<double>{2, 3, 0, 0, 5, 0});
 
-    // the old list stands in another order, and is read in that of the new one
-    const std::vector<std::uint32_t> order = {3, 0, 4, 1, 2};
-    old.reorder(order), list.resize();
-    list.take_histories(old, by_second, [](auto&& f) {
-        for (std::size_t k : {1U, 3U, 4U, 0U, 2U}) f(k);
-    });
-    for (std::size_t k = 0; k < list.size(); ++k) CHECK(list.history[k].x == expected[k]);
+    // by stretches: what one leaves out another may bring
+    list.resize();
+    list.take_histories({1, 6}, old, {0, 3}, by_second);
+    CHECK(taken() == std::vector<double>{0, 3, 0, 0, 0, 0});
+    list.take_histories({3, 6}, old, {2, 5}, by_second);
+    CHECK(taken() == std::vector<double>{0, 3, 0, 0, 5, 0});
+    list.take_histories({2, 2}, old, old.behind(), by_second);
+    list.take_histories({0, 6}, old, {2, 2}, by_second);
+    CHECK(taken() == std::vector<double>{0, 3, 0, 0, 5, 0});
+}
+
+TEST_CASE("pairs between two ranges stand in front, and are told in the order of one list") {
+    contact_list<contacts::linear::history> list;
+    const std::less<pebble_pair> before;
+    const std::vector<pebble_pair> sorted = {{0, 1}, {0, 7}, {2, 3}, {2, 9}, {5, 6}};
+    list.pairs = sorted;
+    list.image = {0, 1, 2, 3, 4};
+    list.resize();
+    for (std::size_t k = 0; k < list.size(); ++k) list.history[k].x = static_cast<double>(k);
+    bring_shared_forward(list, [](const pebble_pair& p) { return p.i < 4 && p.j >= 4; });
+    CHECK(list.shared == 2);
+    CHECK(list.pairs == std::vector<pebble_pair>{{0, 7}, {2, 9}, {0, 1}, {2, 3}, {5, 6}});
+    CHECK(list.image == std::vector<std::uint8_t>{1, 3, 0, 2, 4});
+    CHECK((list.history[1].x == 3.0 && list.history[2].x == 0.0));
+    CHECK((list.in_front().end == 2 && list.behind().begin == 2 && list.behind().end == 5));
+    std::vector<pebble_pair> told;
+    list.each_in_order(before, [&](std::size_t k) { told.push_back(list.pairs[k]); });
+    CHECK(told == sorted);
+    join_shared(list, before);
+    CHECK((list.shared == 0 && list.pairs == sorted && list.image[3] == 3 && list.history[3].x == 3.0));
 }
 
 TEST_CASE("a pair that wakes up stands in its place, with nothing remembered") {

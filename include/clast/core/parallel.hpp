@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -48,8 +50,7 @@ class helpers {
         if (sleepers_.load(std::memory_order_seq_cst) > 0) ticket_.notify_all();
         while (take()) {
         }
-        for (int spin = 0; done_.load(std::memory_order_acquire) < chunks; ++spin)
-            if (spin > 4096) std::this_thread::yield();
+        wait_while([&] { return done_.load(std::memory_order_acquire) < chunks; }, [] { return true; });
     }
 
   private:
@@ -69,15 +70,32 @@ class helpers {
         return true;
     }
 
+    /// Waits while waiting() and patient() hold: awake first, then so that others may have the core. Returns waiting().
+    template <class Waiting, class Patient> static bool wait_while(Waiting&& waiting, Patient&& patient) {
+        for (int spin = 0; waiting(); ++spin) {
+            if (spin < 1000) {
+#if defined(__x86_64__) || defined(__i386__)
+                __builtin_ia32_pause();
+#endif
+                continue;
+            }
+            if (!patient()) return true;
+            std::this_thread::yield();
+        }
+        return false;
+    }
+
     void help() {
         for (;;) {
             std::uint64_t seen = ticket_.load(std::memory_order_acquire);
             if (seen == stop) return;
             if (take()) continue;
-            // loops follow each other within microseconds: look again for a while before falling asleep
-            bool fresh = false;
-            for (int spin = 0; spin < 20000 && !fresh; ++spin) fresh = ticket_.load(std::memory_order_relaxed) != seen;
-            if (fresh) continue;
+            // loops follow each other within microseconds, and to be woken takes tens of them
+            const auto since = std::chrono::steady_clock::now();
+            const auto recently = [&] {
+                return std::chrono::steady_clock::now() - since < std::chrono::milliseconds(1);
+            };
+            if (!wait_while([&] { return ticket_.load(std::memory_order_relaxed) == seen; }, recently)) continue;
             sleepers_.fetch_add(1, std::memory_order_seq_cst);
             ticket_.wait(seen, std::memory_order_seq_cst);
             sleepers_.fetch_sub(1, std::memory_order_seq_cst);
@@ -161,6 +179,34 @@ class execution {
         double largest = floor;
         for (double v : partial) largest = std::max(largest, v);
         return largest;
+    }
+
+    /// The i in [0, n) for which wanted(i), ascending. Every i is asked once.
+    template <class Index = std::uint32_t, class F> std::vector<Index> where(std::size_t n, F&& wanted) const {
+        const auto found = std::make_unique_for_overwrite<Index[]>(n); // from the start of each chunk on
+        std::vector<std::size_t> start(chunks(n) + 1, 0);
+        constexpr std::size_t grain = 4;
+        for_each(
+            chunks(n),
+            [&](std::size_t c) {
+                Index* to = found.get() + c * chunk;
+                std::size_t count = 0;
+                for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
+                    to[count] = static_cast<Index>(i); // no branch on what may be anything
+                    count += wanted(i) ? 1U : 0U;
+                }
+                start[c + 1] = count;
+            },
+            grain);
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<Index> all(start.back());
+        for_each(
+            chunks(n),
+            [&](std::size_t c) {
+                std::copy_n(found.get() + c * chunk, start[c + 1] - start[c], all.data() + start[c]);
+            },
+            grain);
+        return all;
     }
 
   private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -87,12 +88,31 @@ constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
     return scale(edges, {steps(image % 3), steps(image / 3 % 3), steps(image / 9)});
 }
 
-/// Half list of pairs.
+/// Indices from begin to end - 1.
+struct index_range {
+    std::size_t begin, end;
+};
+
+/// Half list of pairs, sorted. Where bodies are cut into ranges, one for each thread, the pairs between two ranges
+/// stand in front, sorted as well.
 struct pair_list {
     std::vector<pebble_pair> pairs;
     std::vector<std::uint8_t> image; ///< in a periodic cell: which image of j is meant (image_shift); else empty
+    std::size_t shared = 0;          ///< number of pairs between two ranges
 
     std::size_t size() const { return pairs.size(); }
+    index_range in_front() const { return {0, shared}; }
+    index_range behind() const { return {shared, size()}; }
+    /// Calls f(k) for all pairs, in the order that they would have in one sorted list.
+    template <class Order, class F> void each_in_order(Order&& before, F&& f) const {
+        std::size_t a = 0, b = shared;
+        while (a < shared || b < size()) f(b == size() || (a < shared && before(pairs[a], pairs[b])) ? a++ : b++);
+    }
+    /// The pair that shall stand at k stands at order[k].
+    void reorder(std::span<const std::uint32_t> order) {
+        permute(pairs, order);
+        if (!image.empty()) permute(image, order);
+    }
     /// Adds a pair in its place, of a list without images that is sorted by `before`; returns the place.
     template <class Order> std::ptrdiff_t insert(const pebble_pair& p, Order&& before) {
         const auto k = std::lower_bound(pairs.begin(), pairs.end(), p, before) - pairs.begin();
@@ -100,11 +120,37 @@ struct pair_list {
         return k;
     }
 
+    /// A list is saved when it is joined.
     template <class A> void archive(A& a) { a(pairs, image); }
+
+  protected:
+    template <class T> static void permute(std::vector<T>& v, std::span<const std::uint32_t> order) {
+        const std::vector<T> old = v;
+        for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
+    }
 };
 
-/// Half list of contacts. An engine sorts it and may bring contacts that threads share to the front. An empty history
-/// (frictionless law) takes no memory; rows are there after a step that was asked for them, and empty otherwise.
+/// Brings those pairs of a joined list to the front for which is_shared(pair).
+template <class List, class F> void bring_shared_forward(List& list, F&& is_shared) {
+    std::vector<std::uint32_t> order(list.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto middle =
+        std::stable_partition(order.begin(), order.end(), [&](std::uint32_t k) { return is_shared(list.pairs[k]); });
+    list.shared = static_cast<std::size_t>(middle - order.begin());
+    if (list.shared > 0) list.reorder(order);
+}
+/// Makes it one sorted list again.
+template <class List, class Order> void join_shared(List& list, Order&& before) {
+    if (list.shared == 0) return;
+    std::vector<std::uint32_t> order;
+    order.reserve(list.size());
+    list.each_in_order(before, [&](std::size_t k) { order.push_back(static_cast<std::uint32_t>(k)); });
+    list.reorder(order);
+    list.shared = 0;
+}
+
+/// Half list of contacts. An empty history (frictionless law) takes no memory; rows are there after a step that was
+/// asked for them, and empty otherwise.
 template <class History> struct contact_list : pair_list {
     static constexpr bool remembers = !std::is_empty_v<History>;
 
@@ -122,29 +168,27 @@ template <class History> struct contact_list : pair_list {
         rows.clear();
         if constexpr (remembers) history.assign(pairs.size(), {});
     }
-    /// Takes over the histories of the pairs that `old` has, too. Both are sorted by `before`: this list as it stands,
-    /// the old one as each(f) calls f(k) for all its contacts.
-    template <class Order, class Each>
-    void take_histories(const contact_list& old, Order&& before, [[maybe_unused]] Each&& each) {
+    /// Gives contacts of this list the histories that the same pairs have among some contacts of an old one. Both
+    /// stretches are sorted by `before`.
+    template <class Order>
+    void take_histories(index_range mine, const contact_list& old, index_range theirs, Order&& before) {
         if constexpr (remembers) {
-            std::size_t k = 0;
-            each([&](std::size_t was) {
-                while (k < size() && pairs[k] != old.pairs[was] && before(pairs[k], old.pairs[was])) ++k;
-                if (k < size() && pairs[k] == old.pairs[was])
-                    history[k++] = old.history[was]; // as a rule the next two are equal, too
-            });
+            if (mine.begin == mine.end) return;
+            const auto at = [&](std::size_t k) { return old.pairs.begin() + static_cast<std::ptrdiff_t>(k); };
+            auto was = static_cast<std::size_t>(
+                std::lower_bound(at(theirs.begin), at(theirs.end), pairs[mine.begin], before) - old.pairs.begin());
+            for (std::size_t k = mine.begin; k < mine.end && was < theirs.end;)
+                if (pairs[k] == old.pairs[was])
+                    history[k++] = old.history[was++]; // as a rule the next two are equal, too
+                else
+                    before(pairs[k], old.pairs[was]) ? ++k : ++was;
         }
     }
     /// The contact that shall stand at k stands at order[k].
     void reorder(std::span<const std::uint32_t> order) {
-        const auto permute = [&](auto& v) {
-            auto old = v;
-            for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
-        };
-        permute(pairs);
-        if (!rows.empty()) permute(rows);
-        if constexpr (remembers) permute(history);
-        if (!image.empty()) permute(image);
+        pair_list::reorder(order);
+        if (!rows.empty()) permute(rows, order);
+        if constexpr (remembers) permute(history, order);
     }
 
     template <class A> void archive(A& a) {

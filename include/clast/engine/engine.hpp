@@ -221,7 +221,8 @@ template <triaxial_policies P> class engine {
     /// number of threads is not either: lists are saved as one thread would have them.
     template <class A> void archive(A& a) {
         place_all();
-        join_ranges();
+        join_shared(wide_.slow, pair_order());
+        join_shared(slow_, pair_order());
         a(grains, boundary, settings.grain_contact, breakage_on, totals_, dt_, fast_steps_, must_search_, must_renew_,
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
@@ -230,7 +231,9 @@ template <triaxial_policies P> class engine {
           start_skin_, skin_used_up_, listed_at_step_, open_pairs_);
         if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, broken_);
         slow_of_.reset();
-        split_ranges();                                                  // as the threads of this run ask for
+        cut_ranges(); // as the threads of this run ask for
+        bring_shared_forward(slow_, between_ranges());
+        index_ranges();
         fast_.rows.resize(fast_.size());                                 // written anew by the next step
         loads_.resize(static_cast<std::size_t>(boundary.facet_count())); // like rows, written anew by the next step
         work_loads_.resize(loads_.size());
@@ -332,14 +335,7 @@ template <triaxial_policies P> class engine {
     using strip_type = strip<contact, decltype(std::declval<const specimen_type&>().view())>;
 
     /// f(k) for the slow contacts in the order that one thread gives them.
-    template <class F> void each_slow(F&& f) const {
-        std::size_t a = 0, b = slow_shared_;
-        while (a < slow_shared_ || b < slow_.size())
-            f(b == slow_.size() || (a < slow_shared_ && slow_order_[a] < slow_order_[b]) ? a++ : b++);
-    }
-    template <class F> void each_fast(F&& f) const {
-        for (std::size_t k = 0; k < fast_.size(); ++k) f(k);
-    }
+    template <class F> void each_slow(F&& f) const { slow_.each_in_order(pair_order(), f); }
     /// Order of the lists: by first body, second pebble, first pebble.
     auto pair_order() const {
         return [this](const pebble_pair& a, const pebble_pair& b) {
@@ -561,7 +557,7 @@ template <triaxial_policies P> class engine {
     margin_use sweep(bool keep) {
         set_shifts();
         if (keep) slow_.rows.resize(slow_.size());
-        each_strip(slow_shared_, [&](std::size_t begin, std::size_t end, strip_type& s) {
+        each_strip(slow_.shared, [&](std::size_t begin, std::size_t end, strip_type& s) {
             evaluate_slow(s, begin, end, keep);
             each_load(s, [&](std::size_t k, const contact_load& load) { shared_load_[begin + k] = load; });
         });
@@ -621,7 +617,7 @@ template <triaxial_policies P> class engine {
     /// wall rows that come next.
     load_sum complete_load(body_range& r, std::size_t g, std::size_t& shared, std::size_t& wall) {
         body_load& sum = acting_[g];
-        for (; shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
+        for (; shared < slow_.shared && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
             shared_load_[shared].add_to_i(sum);
         load_sum load{
             {sum.force[0], sum.force[1], sum.force[2]}, {sum.moment[0], sum.moment[1], sum.moment[2]}, sum.moment[3]};
@@ -954,8 +950,10 @@ template <triaxial_policies P> class engine {
     /// Work of a periodic cell: contacts across its faces move with their images.
     void add_work_of_images() {
         if constexpr (periodic) {
-            double power = 0.0;
-            for (std::uint32_t a : across_order_) power += dot(across_force_[a], shift_speed_[slow_.image[across_[a]]]);
+            const double power = settings.run.sum(across_.size(), 0.0, [&](std::size_t k) {
+                const std::uint32_t a = across_order_[k];
+                return dot(across_force_[a], shift_speed_[slow_.image[across_[a]]]);
+            });
             totals_.boundary_work += power * dt_;
         }
     }
@@ -1088,7 +1086,7 @@ template <triaxial_policies P> class engine {
     }
     void set_origin(origin& now) const {
         now.bodies.resize(grains.body_count());
-        for (std::size_t b = 0; b < grains.body_count(); ++b) now.bodies[b] = grains.refer(b);
+        settings.run.for_each(grains.body_count(), [&](std::size_t b) { now.bodies[b] = grains.refer(b); });
         if constexpr (breakable) {
             now.balls.resize(grains.pebble_count());
             for (std::int32_t p : broken_.balls) now.balls[at(p)] = grains.pebbles[at(p)].x;
@@ -1228,6 +1226,7 @@ template <triaxial_policies P> class engine {
                 if (boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + wide_.margin))
                     wide_.wall.push_back(static_cast<std::int32_t>(p));
         }
+        cut_ranges();
         set_origin(wide_.since);
         choose_margins(); // within the new wide margin
         wide_.renewals = 0;
@@ -1237,27 +1236,39 @@ template <triaxial_policies P> class engine {
 
     /// The lists of contacts: what margins ask for of that which the last search has found. Histories carry over.
     void pick() {
-        contact_list<history> slow, fast;
         open_pairs_ = 0;
-        for (const bool light : {false, true}) {
-            contact_list<history>& list = light ? fast : slow;
-            pick(light ? wide_.fast : wide_.slow, list);
-            list.resize();
-            list.take_histories(slow_, pair_order(), [&](auto&& f) { each_slow(f); });
-            list.take_histories(fast_, pair_order(), [&](auto&& f) { each_fast(f); });
+        contact_list<history> slow = picked(wide_.slow), fast = picked(wide_.fast);
+        const bool anew = wide_.renewals++ == 0; // else pairs stand in the same part of the same list as before
+        if (anew) wide_.beyond = wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size();
+        const auto take = [&](contact_list<history>& list, index_range own, const contact_list<history>& old,
+                              index_range there) {
+            constexpr std::size_t chunk = 512;
+            settings.run.for_each(
+                (own.end - own.begin + chunk - 1) / chunk,
+                [&](std::size_t c) {
+                    const std::size_t begin = own.begin + c * chunk;
+                    list.take_histories({begin, std::min(begin + chunk, own.end)}, old, there, pair_order());
+                },
+                1);
+        };
+        take(slow, slow.in_front(), slow_, slow_.in_front());
+        take(slow, slow.behind(), slow_, slow_.behind());
+        take(fast, fast.behind(), fast_, fast_.behind());
+        if (anew) {
+            take(slow, slow.in_front(), slow_, slow_.behind());
+            take(slow, slow.behind(), slow_, slow_.in_front());
+            take(fast, fast.behind(), slow_, slow_.in_front());
+            take(fast, fast.behind(), slow_, slow_.behind());
         }
-        if (wide_.renewals++ == 0) wide_.beyond = wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size();
         slow_ = std::move(slow);
         fast_ = std::move(fast);
         fast_.rows.assign(fast_.size(), {});
-        slow_shared_ = 0;
-        slow_order_.clear();
 
         pick_walls();
         sort_pebbles();
         find_halo();
         slow_of_.reset();
-        split_ranges();
+        index_ranges();
         set_origin(since_);
         stretch_ = {1.0, 1.0, 1.0};
         listed_at_step_ = totals_.steps;
@@ -1266,35 +1277,32 @@ template <triaxial_policies P> class engine {
         ++totals_.renewals;
     }
     double margin_of(std::int32_t pebble) const { return margins_[grains.body_of(pebble)]; }
-    /// The pairs of one list whose gap is not larger than the margins of both bodies.
-    void pick(const pair_list& wide, contact_list<history>& list) {
-        if (wide.size() == 0) return;
-        constexpr std::uint8_t listed = 1, open = 2;
-        std::vector<std::uint8_t> is(wide.size());
+    /// The pairs of one list whose gap is not larger than the margins of both bodies, with empty histories.
+    contact_list<history> picked(const pair_list& wide) {
+        const auto is_open = std::make_unique_for_overwrite<std::uint8_t[]>(wide.size());
+        const std::vector<std::uint32_t> kept = settings.run.where(wide.size(), [&](std::size_t k) {
+            const pebble_pair& p = wide.pairs[k];
+            const double touch = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
+            const double reach = touch + margin_of(p.i) + margin_of(p.j) + (periodic ? wall_margin_ : 0.0),
+                         distance2 = norm2(apart(wide, k));
+            is_open[k] = distance2 < touch * touch ? 0 : 1;
+            return distance2 < reach * reach;
+        });
+        open_pairs_ +=
+            settings.run.sum(kept.size(), std::size_t{0}, [&](std::size_t k) { return std::size_t{is_open[kept[k]]}; });
+        contact_list<history> list;
+        list.shared = static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), wide.shared) - kept.begin());
+        list.pairs.resize(kept.size());
+        if constexpr (periodic) list.image.resize(kept.size());
         settings.run.for_each(
-            wide.size(),
+            kept.size(),
             [&](std::size_t k) {
-                const pebble_pair& p = wide.pairs[k];
-                const double touch = grains.pebbles[at(p.i)].radius + grains.pebbles[at(p.j)].radius;
-                const double reach = touch + margin_of(p.i) + margin_of(p.j) + (periodic ? wall_margin_ : 0.0),
-                             distance2 = norm2(apart(wide, k));
-                is[k] = static_cast<std::uint8_t>((distance2 < reach * reach ? listed : 0) |
-                                                  (distance2 < touch * touch ? 0 : open));
+                list.pairs[k] = wide.pairs[kept[k]];
+                if constexpr (periodic) list.image[k] = wide.image[kept[k]];
             },
             1024);
-        std::size_t count = 0, open_pairs = 0;
-        for (const std::uint8_t f : is) count += f & listed, open_pairs += f == (listed | open);
-        open_pairs_ += open_pairs;
-        list.pairs.resize(count + 1); // one more: all are written, those that are listed are kept
-        if constexpr (periodic) list.image.resize(count + 1);
-        count = 0;
-        for (std::size_t k = 0; k < wide.size(); ++k) {
-            list.pairs[count] = wide.pairs[k];
-            if constexpr (periodic) list.image[count] = wide.image[k];
-            count += is[k] & listed;
-        }
-        list.pairs.resize(count);
-        if constexpr (periodic) list.image.resize(count);
+        list.resize();
+        return list;
     }
     void pick_walls() {
         slow_wall_.clear(), fast_wall_.clear();
@@ -1444,7 +1452,7 @@ template <triaxial_policies P> class engine {
 
     void index_fast() {
         fast_of_ = incidence(
-            grains.motion.size(), fast_, [&](auto&& f) { each_fast(f); }, fast_wall_,
+            grains.motion.size(), fast_, [&](auto&& f) { fast_.each_in_order(pair_order(), f); }, fast_wall_,
             [&](std::int32_t p) { return grains.body_of(p); });
     }
     /// Which rows act on a swept body: made when it is asked for the first time after a renewal.
@@ -1486,83 +1494,86 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    /// Cuts the bodies into one range for each thread, with about equally many contacts, and moves the contacts between
-    /// two ranges to the front of the list. The sums of bodies keep their order.
-    void split_ranges() {
-        const std::size_t n = slow_.size(), bodies = grains.body_count();
-        const std::size_t count = std::clamp<std::size_t>(n / std::max<std::size_t>(1, settings.contacts_per_thread), 1,
-                                                          static_cast<std::size_t>(settings.run.threads()));
-        ranges_ = std::vector<body_range>(count);
-        std::vector<std::size_t> range_of(bodies, 0);
-        {
-            std::size_t row = 0, body = 0;
-            for (std::size_t r = 0; r < count; ++r) {
-                ranges_[r].first_body = body;
-                const std::size_t target = (r + 1) * n / count;
-                if (r + 1 == count)
-                    body = bodies;
-                else
-                    for (; row < target; ++body)
-                        while (row < n && grains.body_of(slow_.pairs[row].i) == body) ++row;
-                ranges_[r].last_body = body;
-                std::fill(range_of.begin() + static_cast<std::ptrdiff_t>(ranges_[r].first_body),
-                          range_of.begin() + static_cast<std::ptrdiff_t>(body), r);
-            }
-        }
-        slow_shared_ = 0;
-        slow_order_.clear();
-        if (count > 1) {
-            std::vector<std::uint32_t>& order = slow_order_;
-            order.resize(n);
-            std::iota(order.begin(), order.end(), 0U);
-            const auto shared = [&](std::uint32_t k) {
-                const pebble_pair& p = slow_.pairs[k];
-                return range_of[grains.body_of(p.i)] != range_of[grains.body_of(p.j)];
-            };
-            slow_shared_ =
-                static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), shared) - order.begin());
-            slow_.reorder(order);
-        }
-        shared_load_.resize(slow_shared_);
+    /// Cuts the bodies into one range for each thread, with about equally many pairs of those that the search has
+    /// found, and brings the pairs between two ranges to the front, of its list and so of those that are picked from
+    /// it.
+    void cut_ranges() {
+        const std::size_t bodies = grains.body_count(), pairs = wide_.slow.size();
+        // of the pairs that a search finds about half are listed
+        const std::size_t enough = 2 * std::max<std::size_t>(1, settings.contacts_per_thread);
+        ranges_.resize(std::clamp<std::size_t>(pairs / enough, 1, static_cast<std::size_t>(settings.run.threads())));
         acting_.assign(bodies, {});
-        // behind the last contact of a body, or where that of the bodies before it is
-        own_end_.assign(bodies, static_cast<std::uint32_t>(slow_shared_));
-        for (std::size_t k = slow_shared_; k < n; ++k)
-            own_end_[grains.body_of(slow_.pairs[k].i)] = static_cast<std::uint32_t>(k + 1);
-        std::partial_sum(own_end_.begin(), own_end_.end(), own_end_.begin(),
-                         [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); });
-        const auto end_of = [&](std::size_t body) { return body == 0 ? slow_shared_ : own_end_[body - 1]; };
-        std::size_t shared = 0, wall = 0;
-        for (body_range& r : ranges_) {
-            while (shared < slow_shared_ && grains.body_of(slow_.pairs[shared].i) < r.first_body) ++shared;
-            while (wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) < r.first_body) ++wall;
-            r.first_shared = shared, r.first_wall = wall;
-            r.first_row = end_of(r.first_body), r.last_row = end_of(r.last_body);
+        std::vector<std::uint32_t> pairs_of(bodies, 0); // a pair counts for both of its bodies
+        for (const pebble_pair& p : wide_.slow.pairs) ++pairs_of[grains.body_of(p.i)], ++pairs_of[grains.body_of(p.j)];
+        std::size_t body = 0, sum = 0;
+        for (std::size_t r = 0; r < ranges_.size(); ++r) {
+            ranges_[r].first_body = body;
+            while (body < bodies && (sum < (r + 1) * 2 * pairs / ranges_.size() || r + 1 == ranges_.size()))
+                sum += pairs_of[body++];
+            ranges_[r].last_body = body;
         }
-        for (std::uint32_t k = 0; k < slow_shared_; ++k)
-            ranges_[range_of[grains.body_of(slow_.pairs[k].j)]].incoming.push_back(k);
+        bring_shared_forward(wide_.slow, between_ranges());
+    }
+    /// Whether the bodies of a pair of clumps are in different ranges.
+    auto between_ranges() const {
+        return [this](const pebble_pair& p) {
+            const auto range_of = [&](std::int32_t pebble) {
+                return std::partition_point(ranges_.begin(), ranges_.end(),
+                                            [&](const body_range& r) { return r.last_body <= grains.body_of(pebble); });
+            };
+            return ranges_.size() > 1 && range_of(p.i) != range_of(p.j);
+        };
+    }
+    /// Where the contacts of ranges, and of the bodies in them, are in the lists.
+    void index_ranges() {
+        const auto first_of = [&](index_range rows, std::size_t body) {
+            const auto begin = slow_.pairs.begin();
+            return static_cast<std::size_t>(
+                std::partition_point(begin + static_cast<std::ptrdiff_t>(rows.begin),
+                                     begin + static_cast<std::ptrdiff_t>(rows.end),
+                                     [&](const pebble_pair& p) { return grains.body_of(p.i) < body; }) -
+                begin);
+        };
+        shared_load_.resize(slow_.shared);
+        own_end_.resize(grains.body_count());
+        settings.run.for_each(
+            ranges_.size(),
+            [&](std::size_t number) {
+                body_range& r = ranges_[number];
+                r.first_row = first_of(slow_.behind(), r.first_body);
+                r.last_row = first_of(slow_.behind(), r.last_body);
+                r.first_shared = first_of(slow_.in_front(), r.first_body);
+                r.first_wall = static_cast<std::size_t>(
+                    std::partition_point(slow_wall_.begin(), slow_wall_.end(),
+                                         [&](const wall_row& w) { return grains.body_of(w.pebble) < r.first_body; }) -
+                    slow_wall_.begin());
+                // behind the last contact of a body, or where that of the bodies before it is
+                std::size_t end = r.first_row;
+                std::fill(own_end_.begin() + static_cast<std::ptrdiff_t>(r.first_body),
+                          own_end_.begin() + static_cast<std::ptrdiff_t>(r.last_body), 0U);
+                for (std::size_t k = r.first_row; k < r.last_row; ++k)
+                    own_end_[grains.body_of(slow_.pairs[k].i)] = static_cast<std::uint32_t>(k + 1);
+                for (std::size_t b = r.first_body; b < r.last_body; ++b) {
+                    end = std::max<std::size_t>(end, own_end_[b]);
+                    own_end_[b] = static_cast<std::uint32_t>(end);
+                }
+                r.incoming.clear();
+                for (std::uint32_t k = 0; k < slow_.shared; ++k)
+                    if (const std::size_t j = grains.body_of(slow_.pairs[k].j); r.first_body <= j && j < r.last_body)
+                        r.incoming.push_back(k);
+            },
+            1);
         if constexpr (periodic) {
-            across_.clear();
-            for (std::uint32_t k = 0; k < n; ++k)
-                if (slow_.image[k] != no_shift) across_.push_back(k);
+            across_ = settings.run.where(slow_.size(), [&](std::size_t k) { return slow_.image[k] != no_shift; });
             across_force_.assign(across_.size(), {});
             across_order_.resize(across_.size());
             std::iota(across_order_.begin(), across_order_.end(), 0U);
-            if (!slow_order_.empty())
-                std::sort(across_order_.begin(), across_order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-                    return slow_order_[across_[a]] < slow_order_[across_[b]];
-                });
+            const auto behind = std::lower_bound(across_.begin(), across_.end(), slow_.shared) - across_.begin();
+            std::inplace_merge(across_order_.begin(), across_order_.begin() + behind, across_order_.end(),
+                               [&](std::uint32_t a, std::uint32_t b) {
+                                   return pair_order()(slow_.pairs[across_[a]], slow_.pairs[across_[b]]);
+                               });
         }
-    }
-    /// Back to one sorted list, as if there had been one thread.
-    void join_ranges() {
-        if (slow_shared_ == 0) return;
-        std::vector<std::uint32_t> order(slow_.size());
-        for (std::uint32_t k = 0; k < order.size(); ++k) order[slow_order_[k]] = k;
-        slow_.reorder(order);
-        slow_of_.reset();
-        slow_shared_ = 0;
-        slow_order_.clear();
     }
 
     // ---- time step ------------------------------------------------------------------------------------------------
@@ -1720,8 +1731,6 @@ template <triaxial_policies P> class engine {
     std::vector<boundaries::coupling> couplings_;
     std::vector<body_range> ranges_;
     std::vector<std::uint32_t> own_end_;    ///< per body: end of the contacts whose first body it is, in its range
-    std::size_t slow_shared_ = 0;           ///< slow contacts between two ranges; they come first in the list
-    std::vector<std::uint32_t> slow_order_; ///< places of the slow contacts in a list of one thread; empty: the same
     std::vector<contact_load> shared_load_; ///< of the contacts between two ranges
     std::vector<body_load> acting_;         ///< per body; zero between steps
     bool look_ = false;                     ///< the criterion looks at this step

@@ -87,11 +87,6 @@ struct body_items {
     template <class A> void archive(A& a) { a(start, items); }
 };
 
-/// Indices from begin to end - 1.
-struct index_range {
-    std::size_t begin, end;
-};
-
 /// Grains, pebbles and their bodies. Body g (g < grains) is the clump of grain g; body grains + p is the ball of pebble
 /// p, which exists only in a breakable specimen. `owner` says which of them moves a pebble now.
 struct specimen {
