@@ -29,6 +29,10 @@ target_compile_definitions(clast_fast INTERFACE "$<${gnu_like}:CLAST_OPENMP_SIMD
 # These two belong to one build: an installed clast::fast must not carry the processor of the machine that packed it.
 if(CLAST_NATIVE)
     target_compile_options(clast_fast INTERFACE "$<BUILD_INTERFACE:$<${gnu_like}:-march=native>>")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    # Kernels ask the processor for wider registers when they run; those with fused multiply-add shall not use it, so that
+    # the bits are the same on every processor. (No other code of such a build has it.)
+    target_compile_options(clast_fast INTERFACE "$<${gnu_like}:-ffp-contract=off>")
 endif()
 if(CLAST_PORTABLE_BITS)
     target_compile_options(clast_fast INTERFACE "$<BUILD_INTERFACE:$<${gnu_like}:-ffp-contract=off>>")

@@ -188,11 +188,14 @@ class cluster_pool {
         const double h = dt / steps;
         // half a drift at either end, so that a step of one sub-step is of second order, too
         for (std::size_t k = 0; k < vectors; ++k) u[k] = 0.5 * h * v[k];
-        if (gather(batch, left, 0.5 * h, v, w, f, t, axis)) collect(batch, 0, axis, f, t, broken);
-        for (int step = 1; step <= steps; ++step) {
-            kick(h, v, w, fe, te, f, t, u, live, dissipated);
-            if (gather(batch, left, step < steps ? h : 0.5 * h, v, w, f, t, axis))
+        const auto stretch_bonds = [&](int step, double span) {
+            if (with_widest_registers([=, this, &left] { return gather(batch, left, span, v, w, f, t, axis); }))
                 collect(batch, step, axis, f, t, broken);
+        };
+        stretch_bonds(0, 0.5 * h);
+        for (int step = 1; step <= steps; ++step) {
+            with_widest_registers([=, this, &live, &dissipated] { kick(h, v, w, fe, te, f, t, u, live, dissipated); });
+            stretch_bonds(step, step < steps ? h : 0.5 * h);
         }
         for (std::size_t k = 0; k < vectors; ++k) u[k] -= 0.5 * h * v[k];
         for (std::size_t l = 0; l < lanes; ++l) {

@@ -15,14 +15,32 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
-// A program built for every x86-64 processor has registers of two doubles; nearly every processor has some of four.
-// Loops that decide the speed are compiled for both (clast::fast) and the processor is asked when they run. Without
-// fused multiply-add, so the bits do not depend on the processor.
+// A program built for every x86-64 processor has registers of two doubles; nearly every processor has some of four, and
+// many of eight. Loops that decide the speed are compiled for all three (clast::fast), and the processor is asked when
+// they run.
 #if defined(CLAST_OPENMP_SIMD) && defined(__x86_64__) && !defined(__AVX__) && defined(__GNUC__)
 #define CLAST_WIDER_AT_RUN_TIME
 #endif
 
 namespace clast {
+
+#if defined(CLAST_WIDER_AT_RUN_TIME)
+namespace detail {
+template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx512f,avx512vl,avx512dq")]] auto run_by_eights(F f) {
+    return f();
+}
+template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx2")]] auto run_by_fours(F f) { return f(); }
+} // namespace detail
+#endif
+/// f(), compiled for the widest registers that the processor has. f is copied: what it holds by value need not be read
+/// again behind every store.
+template <class F> [[gnu::always_inline]] inline auto with_widest_registers(F f) {
+#if defined(CLAST_WIDER_AT_RUN_TIME)
+    if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) return detail::run_by_eights(f);
+    if (__builtin_cpu_supports("avx2")) return detail::run_by_fours(f);
+#endif
+    return f();
+}
 
 /// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set,
 /// compiled to what the target has).

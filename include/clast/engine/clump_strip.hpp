@@ -101,23 +101,11 @@ namespace detail {
 #endif
     for (std::size_t k = 0; k < n; ++k) finish_lane(s, k);
 }
-#if defined(CLAST_WIDER_AT_RUN_TIME)
-[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] inline void advance_wide(clump_strip& s, double h,
-                                                                              double damping) {
-    advance_lanes(s, h, damping);
-}
-[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] inline void finish_wide(clump_strip& s) { finish_lanes(s); }
-#endif
 } // namespace detail
 
 /// Moves the clumps of a strip by one step h (s) under their loads, with local damping of force and moment.
 [[gnu::noinline, gnu::flatten]] inline void advance(clump_strip& s, double h, double damping) {
-#if defined(CLAST_WIDER_AT_RUN_TIME)
-    const bool wide = __builtin_cpu_supports("avx2");
-    wide ? detail::advance_wide(s, h, damping) : detail::advance_lanes(s, h, damping);
-#else
-    detail::advance_lanes(s, h, damping);
-#endif
+    with_widest_registers([&s, h, damping] { detail::advance_lanes(s, h, damping); });
     for (std::size_t k = 0; k < s.size; ++k) {
         if (s.angle2[k] < small_step2) continue;
         const turned t = advance_rotation({s.qw[k], s.qx[k], s.qy[k], s.qz[k]}, {s.lx[k], s.ly[k], s.lz[k]},
@@ -125,11 +113,7 @@ namespace detail {
         s.nw[k] = t.q.w, s.nx[k] = t.q.x, s.ny[k] = t.q.y, s.nz[k] = t.q.z;
         s.wx[k] = t.spin.x, s.wy[k] = t.spin.y, s.wz[k] = t.spin.z;
     }
-#if defined(CLAST_WIDER_AT_RUN_TIME)
-    wide ? detail::finish_wide(s) : detail::finish_lanes(s);
-#else
-    detail::finish_lanes(s);
-#endif
+    with_widest_registers([&s] { detail::finish_lanes(s); });
 }
 
 } // namespace clast

@@ -161,13 +161,6 @@ template <class Law, class View>
 #endif
     for (std::size_t k = 0; k < n; ++k) detail::answer(s, history, k, law, h);
 }
-#if defined(CLAST_WIDER_AT_RUN_TIME)
-template <class Law, class View>
-[[gnu::noinline, gnu::flatten, gnu::target("avx2")]] void
-answer_all_wide(strip<Law, View>& s, typename Law::history* history, const Law law, double h) {
-    answer_all(s, history, law, h);
-}
-#endif
 } // namespace detail
 
 /// Answers all contacts of a strip; `history` holds those of its lanes before, and then after. h: span since their last
@@ -179,10 +172,7 @@ answer_all_wide(strip<Law, View>& s, typename Law::history* history, const Law l
 template <class Law, class View>
 [[gnu::noinline, gnu::flatten]] void evaluate(strip<Law, View>& s, typename Law::history* history, const Law law,
                                               double h) {
-#if defined(CLAST_WIDER_AT_RUN_TIME)
-    if (__builtin_cpu_supports("avx2")) return detail::answer_all_wide(s, history, law, h);
-#endif
-    detail::answer_all(s, history, law, h);
+    with_widest_registers([&s, history, law, h] { detail::answer_all(s, history, law, h); });
 }
 
 /// Evaluates contacts [begin, end) of a list, at most a strip; histories go on in the list, results stay in the strip.
