@@ -44,8 +44,11 @@
 #include <clast/contacts/concepts.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/parallel.hpp>
+#include <clast/engine/body_ranges.hpp>
 #include <clast/engine/contact_list.hpp>
 #include <clast/engine/kernel.hpp>
+#include <clast/engine/list_widths.hpp>
+#include <clast/engine/pebble_pairs.hpp>
 #include <clast/engine/policies.hpp>
 #include <clast/engine/specimen.hpp>
 #include <clast/integrators/local_damping.hpp>
@@ -156,8 +159,7 @@ template <triaxial_policies P> class engine {
             grains.losses.resize(grains.motion.size());
         }
         smallest_mass_ = grains.smallest_mass();
-        skin_ = start_skin_ = settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius();
-        wide_.margin = 50.0 * skin_;
+        widths_ = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
         if constexpr (specimen_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
@@ -179,7 +181,7 @@ template <triaxial_policies P> class engine {
     double dt() const { return dt_; }
     double time() const { return totals_.time; }
     const engine_totals& totals() const { return totals_; }
-    double skin() const { return skin_; } ///< of the present lists (m)
+    double skin() const { return widths_.skin(); } ///< of the present lists (m)
     int fast_steps() const { return fast_steps_; }
     std::span<const boundaries::facet_load> loads() const { return loads_; }
     const contact_list<history>& slow_contacts() const { return slow_; }
@@ -227,8 +229,7 @@ template <triaxial_policies P> class engine {
           estimate_due_);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(wide_, slow_, slow_wall_, since_, margins_, wall_margin_, listed_, unlisted_, stretch_, widest_, skin_,
-          start_skin_, skin_used_up_, listed_at_step_, open_pairs_);
+        a(wide_, slow_, slow_wall_, since_, margins_, wall_margin_, listed_, unlisted_, stretch_, widest_, widths_);
         if constexpr (breakable) a(fast_, asleep_, fast_wall_, fast_of_, broken_);
         slow_of_.reset();
         cut_ranges(); // as the threads of this run ask for
@@ -562,11 +563,11 @@ template <triaxial_policies P> class engine {
             each_load(s, [&](std::size_t k, const contact_load& load) { shared_load_[begin + k] = load; });
         });
         settings.run.for_each(
-            ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r], keep); }, 1);
+            ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r], sweeping_[r], keep); }, 1);
         margin_use use = margin_use::within;
-        for (const body_range& r : ranges_) use = std::max(use, r.use);
+        for (const range_work& r : sweeping_) use = std::max(use, r.use);
         if constexpr (breakable && has_criterion)
-            for (body_range& r : ranges_) {
+            for (range_work& r : sweeping_) {
                 std::move(r.marked.begin(), r.marked.end(), std::back_inserter(marked_));
                 r.marked.clear();
             }
@@ -577,32 +578,26 @@ template <triaxial_policies P> class engine {
         std::int32_t grain;
         std::vector<bonds::state> born;
     };
-    /// Bodies that one thread sweeps, and the contacts whose first body is among them (those shared with another range
-    /// excepted).
-    struct body_range {
-        std::size_t first_body = 0, last_body = 0;
-        std::size_t first_row = 0, last_row = 0;
-        std::size_t first_shared = 0;        ///< of the shared contacts whose first body is in the range
-        std::size_t first_wall = 0;          ///< of the wall rows of its bodies
-        std::vector<std::uint32_t> incoming; ///< shared contacts whose second body is in it
+    /// What one thread works with while it sweeps its range.
+    struct range_work {
         std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
         margin_use use = margin_use::within; ///< of its bodies
         std::vector<birth_certificate> marked;
     };
 
-    void sweep_range(body_range& r, bool keep) {
+    void sweep_range(const body_range& r, range_work& work, bool keep) {
         for (std::uint32_t k : r.incoming) shared_load_[k].add_to_j(acting_[grains.body_of(slow_.pairs[k].j)]);
         strip_type s;
-        std::size_t row = r.first_row, body = r.first_body, shared = r.first_shared, wall = r.first_wall;
-        r.use = margin_use::within;
+        std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
+        work.use = margin_use::within;
         for (;;) {
-            for (; body < r.last_body && own_end_[body] <= row; ++body)
+            for (; body < r.bodies.end && ranges_.end_of(body) <= row; ++body)
                 if (grains.is_swept(body)) {
-                    r.ready.push_back({body, complete_load(r, body, shared, wall)});
-                    if (r.ready.size() == clump_strip::length) move_ready(r);
+                    work.ready.push_back({body, complete_load(work, body, shared, wall)});
+                    if (work.ready.size() == clump_strip::length) move_ready(work);
                 }
-            if (row == r.last_row) break;
-            const std::size_t end = std::min(row + strip_type::length, r.last_row);
+            if (row == r.rows.end) break;
+            const std::size_t end = std::min(row + strip_type::length, r.rows.end);
             evaluate_slow(s, row, end, keep);
             const pebble_pair* pairs = slow_.pairs.data() + row;
             each_load(s, [&](std::size_t k, const contact_load& load) {
@@ -611,11 +606,11 @@ template <triaxial_policies P> class engine {
             });
             row = end;
         }
-        move_ready(r);
+        move_ready(work);
     }
     /// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and
     /// wall rows that come next.
-    load_sum complete_load(body_range& r, std::size_t g, std::size_t& shared, std::size_t& wall) {
+    load_sum complete_load([[maybe_unused]] range_work& work, std::size_t g, std::size_t& shared, std::size_t& wall) {
         body_load& sum = acting_[g];
         for (; shared < slow_.shared && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
             shared_load_[shared].add_to_i(sum);
@@ -634,11 +629,11 @@ template <triaxial_policies P> class engine {
                 load.moment += broken_.fast_load[g].moment;
                 load.dissipated += broken_.fast_load[g].dissipated;
             }
-            if (look_ && is_critical(g)) r.marked.push_back(certificate(g));
+            if (look_ && is_critical(g)) work.marked.push_back(certificate(g));
         }
         return load;
     }
-    void move_ready(body_range& r) {
+    void move_ready(range_work& work) {
         // fast contacts see a clump along its velocity, half a step ahead
         const auto ahead = [&]([[maybe_unused]] std::size_t g) {
             if constexpr (breakable)
@@ -646,9 +641,9 @@ template <triaxial_policies P> class engine {
                     return dt_ * (norm(grains.motion[g].v) + grains.bounding_radius(g) * norm(grains.motion[g].w));
             return 0.0;
         };
-        r.use = std::max(r.use, grains.advance(std::span<const moving_body>(r.ready), dt_, settings.damping, listed_,
-                                               {since_.bodies, margins_, stretch_}, ahead));
-        r.ready.clear();
+        work.use = std::max(work.use, grains.advance(std::span<const moving_body>(work.ready), dt_, settings.damping,
+                                                     listed_, {since_.bodies, margins_, stretch_}, ahead));
+        work.ready.clear();
     }
 
     /// Balls and clusters from t_n - lag to t_n + dt/2 in sub-steps; the mean of what they do to clumps and facets.
@@ -1009,12 +1004,8 @@ template <triaxial_policies P> class engine {
         pair_list slow, fast;
         std::vector<std::int32_t> wall; ///< pebbles that a facet may touch
         origin since;
-        double margin = 0.0; ///< largest gap of what was found (m)
-        bool used_up = false;
-        std::int64_t renewals = 0; ///< of lists since then
-        std::size_t beyond = 0;    ///< pairs that were not listed then
 
-        template <class A> void archive(A& a) { a(slow, fast, wall, since, margin, used_up, renewals, beyond); }
+        template <class A> void archive(A& a) { a(slow, fast, wall, since); }
     };
 
     /// Lists are renewed before a pair that they leave out can touch: when a body has used up its margin, or walls and
@@ -1031,7 +1022,10 @@ template <triaxial_policies P> class engine {
                                                        : margin_use::not_finite);
         }
         if (use == margin_use::not_finite) explain_nan();
-        if (use == margin_use::used_up || since_.wall_travel >= wall_margin_) must_renew_ = skin_used_up_ = true;
+        if (use == margin_use::used_up || since_.wall_travel >= wall_margin_) {
+            must_renew_ = true;
+            widths_.skin_is_used_up();
+        }
     }
     vec3 stretch_since([[maybe_unused]] const origin& since) const {
         vec3 s{1.0, 1.0, 1.0};
@@ -1042,7 +1036,7 @@ template <triaxial_policies P> class engine {
     /// How much a strain, or a rate of strain, of a periodic cell brings two grains together that a search names (m,
     /// m/s). Those farther apart come nearer by more, but not by all that they are farther apart.
     double strain_travel(const vec3& strain) const {
-        return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + wide_.margin);
+        return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * (widest_ + widths_.margin());
     }
     /// How far (m) every body may go before lists are renewed: half the skin, and more the faster it is. So a few fast
     /// bodies neither make renewals due for all nor the lists of all long.
@@ -1059,8 +1053,8 @@ template <triaxial_policies P> class engine {
         if (!std::isfinite(sum)) explain_nan();
         const double usual = std::max(sum / static_cast<double>(std::max<std::size_t>(1, grains.body_count())),
                                       std::numeric_limits<double>::min());
-        const double most = 0.125 * wide_.margin; // or the search would not do, and the next be due at once
-        const auto margin = [&](double speed) { return std::min(0.5 * skin_ * (1.0 + 2.0 * speed / usual), most); };
+        const double most = 0.125 * widths_.margin(); // or the search would not do, and the next be due at once
+        const auto margin = [&](double speed) { return std::min(0.5 * skin() * (1.0 + 2.0 * speed / usual), most); };
         settings.run.for_each(grains.body_count(), [&](std::size_t b) { margins_[b] = margin(margins_[b]); });
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls) margins_[ball(p)] = margin(norm(grains.motion[ball(p)].v));
@@ -1082,7 +1076,7 @@ template <triaxial_policies P> class engine {
         if constexpr (periodic) wide_.since.wall_travel = strain_travel(stretch - vec3{1.0, 1.0, 1.0});
         const double travel = wide_.since.wall_travel;
         const double nearer = periodic ? 2.0 * largest + travel : std::max(2.0 * largest, largest + travel);
-        return nearer + wall_margin_ < wide_.margin;
+        return nearer + wall_margin_ < widths_.margin();
     }
     void set_origin(origin& now) const {
         now.bodies.resize(grains.body_count());
@@ -1097,9 +1091,12 @@ template <triaxial_policies P> class engine {
 
     void renew_lists() {
         place_all();
-        choose_skin();
+        widths_.choose_skin(counts(), totals_.steps);
         choose_margins();
-        if (!must_search_ && !wide_lists_hold()) must_search_ = wide_.used_up = true;
+        if (!must_search_ && !wide_lists_hold()) {
+            must_search_ = true;
+            widths_.margin_is_used_up();
+        }
         if (must_search_) search();
         pick();
     }
@@ -1108,42 +1105,7 @@ template <triaxial_policies P> class engine {
         for (std::size_t b = 0; b < grains.body_count(); ++b) sum += grains.bounding_radius(b);
         return sum / static_cast<double>(std::max<std::size_t>(1, grains.body_count()));
     }
-    /// The skin for the lists about to be made: open pairs cost in every step and grow with the skin, renewals become
-    /// rarer with it, so that the sum is least where
-    ///
-    ///     open pairs * steps between renewals = work of a renewal
-    ///
-    /// both counted in evaluations of a pair. Counted, never timed: the same run has the same lists on any machine.
-    void choose_skin() {
-        if (!std::exchange(skin_used_up_, false)) return; // renewed for another reason: nothing learnt
-        const auto bodies = static_cast<double>(grains.body_count()),
-                   pebbles = static_cast<double>(grains.pebble_count());
-        const double work = 4.0 * bodies + 0.8 * pebbles; // measured once
-        const double steps = static_cast<double>(std::max<std::int64_t>(1, totals_.steps - listed_at_step_));
-        skin_ = better(skin_, work, steps * static_cast<double>(open_pairs_));
-        skin_ = std::clamp(skin_, start_skin_ / 64.0, 64.0 * start_skin_);
-    }
-    /// The margin for the search about to be made: the same for the pairs that each renewal looks at.
-    void choose_margin() {
-        if (std::exchange(wide_.used_up, false)) {
-            // measured once: a search takes as long as 20 evaluations per body and 5 per pebble, to look at a pair a
-            // seventh of one
-            const auto bodies = static_cast<double>(grains.body_count()),
-                       pebbles = static_cast<double>(grains.pebble_count());
-            const double looks = 0.15 * static_cast<double>(wide_.beyond) * static_cast<double>(wide_.renewals);
-            wide_.margin = better(wide_.margin, 20.0 * bodies + 5.0 * pebbles, looks);
-        }
-        wide_.margin = std::clamp(wide_.margin, 10.0 * skin_, 1000.0 * skin_);
-        if constexpr (periodic) { // a small cell bounds it
-            const vec3 edges = boundary.edges();
-            wide_.margin =
-                std::max(skin_, std::min(wide_.margin, 0.49 * std::min({edges.x, edges.y, edges.z}) - widest_));
-        }
-    }
-    /// A length nearer to the one at which both costs are equal, of which the first falls with it and the second grows.
-    static double better(double length, double falls, double grows) {
-        return length * std::clamp(std::sqrt(falls / std::max(1.0, grows)), 0.6, 1.6);
-    }
+    list_widths::counts counts() const { return {grains.body_count(), grains.pebble_count()}; }
 
     [[noreturn]] void explain_nan() const {
         const auto blame = [&](std::string what, std::size_t number) {
@@ -1167,48 +1129,40 @@ template <triaxial_policies P> class engine {
     /// Finds all pairs within the wide margin: first bodies by their bounding spheres, then pebbles; and the pebbles
     /// near walls.
     void search() {
+        double room = std::numeric_limits<double>::infinity();
+        vec3 edges;
         if constexpr (periodic) {
             widest_ = 0.0;
             for (std::size_t b = 0; b < grains.body_count(); ++b)
                 widest_ = std::max(widest_, 2.0 * grains.bounding_radius(b));
+            edges = boundary.edges();
+            room = 0.49 * std::min({edges.x, edges.y, edges.z}) - widest_;
         }
-        choose_margin();
+        widths_.choose_margin(counts(), room);
         const std::size_t ng = grains.body_count();
-        std::vector<searches::sphere> spheres;
-        spheres.reserve(2 * ng); // with those at the faces of a periodic cell
+        search_spheres spheres;
+        spheres.all.reserve(2 * ng); // with those at the faces of a periodic cell
         for (std::size_t g = 0; g < ng; ++g)
             if (grains.is_swept(g))
-                spheres.push_back({grains.centre(g), grains.bounding_radius(g), static_cast<std::int32_t>(g)});
+                spheres.all.push_back({grains.centre(g), grains.bounding_radius(g), static_cast<std::int32_t>(g)});
         if constexpr (breakable)
             for (std::int32_t p : broken_.balls)
-                spheres.push_back(
+                spheres.all.push_back(
                     {grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius, static_cast<std::int32_t>(ball(p))});
-        const std::size_t real = spheres.size();
-        std::vector<std::uint8_t> ghost_image; // of the spheres after the real ones
-        if constexpr (periodic) add_ghosts(spheres, ghost_image);
-        const std::vector<searches::sphere_pair> near = typename P::search{}.pairs(spheres, wide_.margin);
-
-        constexpr std::size_t chunk = 256;
-        const std::size_t chunks = (near.size() + chunk - 1) / chunk;
-        found_pairs found(chunks);
-        settings.run.for_each(
-            chunks,
-            [&](std::size_t c) {
-                std::vector<std::int32_t> near_a, near_b; // work space
-                for (std::size_t k = c * chunk; k < std::min(near.size(), (c + 1) * chunk); ++k) {
-                    if (at(near[k].first) >= real) continue; // two ghosts
-                    const searches::sphere& a = spheres[at(near[k].first)];
-                    const searches::sphere& b = spheres[at(near[k].second)];
-                    if (a.id == b.id) continue;
-                    const bool light = at(a.id) >= ng || at(b.id) >= ng;
-                    const std::uint8_t image =
-                        at(near[k].second) >= real ? ghost_image[at(near[k].second) - real] : no_shift;
-                    pebble_pairs(a, b, image, near_a, near_b, found[c][light ? 1 : 0]);
-                }
-            },
-            1);
-        sort(found, 0, wide_.slow);
-        sort(found, 1, wide_.fast);
+        if constexpr (periodic) {
+            bring_back(spheres);
+            const double reach = widest_ + widths_.margin();
+            if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
+                throw run_error({"the periodic cell is too small for its grains",
+                                 fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
+                                 fmt::format("step {}", totals_.steps), "a grain would touch two images of another",
+                                 "take a cell of at least four grain diameters"});
+            spheres.add_images(edges, reach);
+        }
+        auto found = pebble_pairs<specimen_type, periodic>(grains, widths_.margin(), edges, settings.run)
+                         .of(spheres, typename P::search{}.pairs(spheres.all, widths_.margin()));
+        wide_.slow = std::move(found.slow);
+        wide_.fast = std::move(found.fast);
         if constexpr (breakable) { // what a bond carries sleeps as a contact
             asleep_.clear();
             std::erase_if(wide_.fast.pairs, [&](const pebble_pair& p) {
@@ -1219,27 +1173,26 @@ template <triaxial_policies P> class engine {
         }
         wide_.wall.clear();
         for (std::size_t g = 0; g < ng; ++g) {
-            if (grains.is_swept(g) && !boundary.near(grains.centre(g), grains.bounding_radius(g) + wide_.margin))
+            if (grains.is_swept(g) && !boundary.near(grains.centre(g), grains.bounding_radius(g) + widths_.margin()))
                 continue;
             const index_range own = grains.pebbles_of(g);
             for (std::size_t p = own.begin; p < own.end; ++p)
-                if (boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + wide_.margin))
+                if (boundary.near(grains.pebbles[p].x, grains.pebbles[p].radius + widths_.margin()))
                     wide_.wall.push_back(static_cast<std::int32_t>(p));
         }
         cut_ranges();
         set_origin(wide_.since);
         choose_margins(); // within the new wide margin
-        wide_.renewals = 0;
         must_search_ = false;
         ++totals_.rebuilds;
     }
 
     /// The lists of contacts: what margins ask for of that which the last search has found. Histories carry over.
     void pick() {
-        open_pairs_ = 0;
-        contact_list<history> slow = picked(wide_.slow), fast = picked(wide_.fast);
-        const bool anew = wide_.renewals++ == 0; // else pairs stand in the same part of the same list as before
-        if (anew) wide_.beyond = wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size();
+        std::size_t open = 0;
+        contact_list<history> slow = picked(wide_.slow, open), fast = picked(wide_.fast, open);
+        const bool anew = widths_.is_fresh(); // else pairs stand in the same part of the same list as before
+        widths_.picked(totals_.steps, open, wide_.slow.size() + wide_.fast.size() - slow.size() - fast.size());
         const auto take = [&](contact_list<history>& list, index_range own, const contact_list<history>& old,
                               index_range there) {
             constexpr std::size_t chunk = 512;
@@ -1271,14 +1224,14 @@ template <triaxial_policies P> class engine {
         index_ranges();
         set_origin(since_);
         stretch_ = {1.0, 1.0, 1.0};
-        listed_at_step_ = totals_.steps;
         work_loads_.assign(loads_.size(), {});
         must_renew_ = false;
         ++totals_.renewals;
     }
     double margin_of(std::int32_t pebble) const { return margins_[grains.body_of(pebble)]; }
-    /// The pairs of one list whose gap is not larger than the margins of both bodies, with empty histories.
-    contact_list<history> picked(const pair_list& wide) {
+    /// The pairs of one list whose gap is not larger than the margins of both bodies, with empty histories. Counts
+    /// those that do not touch.
+    contact_list<history> picked(const pair_list& wide, std::size_t& open) const {
         const auto is_open = std::make_unique_for_overwrite<std::uint8_t[]>(wide.size());
         const std::vector<std::uint32_t> kept = settings.run.where(wide.size(), [&](std::size_t k) {
             const pebble_pair& p = wide.pairs[k];
@@ -1288,7 +1241,7 @@ template <triaxial_policies P> class engine {
             is_open[k] = distance2 < touch * touch ? 0 : 1;
             return distance2 < reach * reach;
         });
-        open_pairs_ +=
+        open +=
             settings.run.sum(kept.size(), std::size_t{0}, [&](std::size_t k) { return std::size_t{is_open[kept[k]]}; });
         contact_list<history> list;
         list.shared = static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), wide.shared) - kept.begin());
@@ -1316,17 +1269,11 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    struct listed_pair {
-        pebble_pair pair;
-        std::uint8_t image;
-    };
-    using found_pairs = std::vector<std::array<std::vector<listed_pair>, 2>>; ///< by parts: slow and fast
-    /// Puts every body back into the cell, and adds images of those near its faces: for half of the 26 shifts, so that
-    /// each pair is named once.
-    void add_ghosts(std::vector<searches::sphere>& spheres, std::vector<std::uint8_t>& image) {
+    /// Puts every body that has left the periodic cell back into it.
+    void bring_back(search_spheres& spheres) {
         if constexpr (periodic) {
             const vec3 edges = boundary.edges();
-            for (searches::sphere& s : spheres) {
+            for (searches::sphere& s : spheres.all) {
                 vec3 steps;
                 for (int a = 0; a < 3; ++a) steps[a] = -std::floor(s.centre[a] / edges[a] + 0.5);
                 if (steps == vec3{}) continue;
@@ -1337,104 +1284,7 @@ template <triaxial_policies P> class engine {
                 grains.place(at(s.id));
                 s.centre = grains.centre(at(s.id));
             }
-            const double reach = widest_ + wide_.margin;
-            if (!(std::min({edges.x, edges.y, edges.z}) > 2.0 * reach))
-                throw run_error({"the periodic cell is too small for its grains",
-                                 fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges.x, edges.y, edges.z),
-                                 fmt::format("step {}", totals_.steps), "a grain would touch two images of another",
-                                 "take a cell of at least four grain diameters"});
-            const std::size_t real = spheres.size();
-            for (std::size_t k = 0; k < real; ++k) {
-                const vec3 own = spheres[k].centre;
-                if (std::abs(own.x) < 0.5 * edges.x - reach && std::abs(own.y) < 0.5 * edges.y - reach &&
-                    std::abs(own.z) < 0.5 * edges.z - reach)
-                    continue; // far from every face
-                for (std::size_t i = no_shift + 1; i < 27; ++i) {
-                    const vec3 c = own + image_shift(i, edges);
-                    if (std::abs(c.x) > 0.5 * edges.x + reach || std::abs(c.y) > 0.5 * edges.y + reach ||
-                        std::abs(c.z) > 0.5 * edges.z + reach)
-                        continue;
-                    spheres.push_back({c, spheres[k].radius, spheres[k].id});
-                    image.push_back(static_cast<std::uint8_t>(i));
-                }
-            }
         }
-    }
-
-    /// Pairs of pebbles of two neighbours; those with the same second pebble stand by the first one. near_a, near_b:
-    /// work space, pebbles of one that the other may reach.
-    void pebble_pairs(const searches::sphere& a, const searches::sphere& b, std::uint8_t image,
-                      std::vector<std::int32_t>& near_a, std::vector<std::int32_t>& near_b,
-                      std::vector<listed_pair>& out) const {
-        const auto list = [&](std::int32_t p, std::int32_t q) { // seen from q, it is p that lies the other way
-            return p < q ? listed_pair{{p, q}, image}
-                         : listed_pair{{q, p}, static_cast<std::uint8_t>(2 * no_shift - image)};
-        };
-        const auto ng = static_cast<std::int32_t>(grains.body_count());
-        if constexpr (!specimen_type::turns) return out.push_back(list(a.id, b.id)); // the search has tested them
-        if (a.id >= ng && b.id >= ng) return out.push_back(list(a.id - ng, b.id - ng));
-        vec3 shift;
-        if constexpr (periodic) shift = image_shift(image, boundary.edges());
-        const auto pebble = [&](std::int32_t p, const vec3& by) {
-            searches::sphere s{grains.pebbles[at(p)].x, grains.pebbles[at(p)].radius};
-            if constexpr (periodic) s.centre += by;
-            return s;
-        };
-        // all are written, those within the margin are kept: no branch that depends on the packing
-        const auto collect = [&](const searches::sphere& body, const vec3& by, const searches::sphere& other,
-                                 std::vector<std::int32_t>& kept) {
-            const index_range own =
-                body.id >= ng ? index_range{at(body.id - ng), at(body.id - ng) + 1} : grains.pebbles_of(at(body.id));
-            kept.resize(own.end - own.begin + 1);
-            std::size_t n = 0;
-            for (auto p = static_cast<std::int32_t>(own.begin); p < static_cast<std::int32_t>(own.end); ++p) {
-                kept[n] = p;
-                n += searches::within(pebble(p, by), other, wide_.margin);
-            }
-            kept.resize(n);
-        };
-        collect(a, {}, b, near_a);
-        collect(b, shift, a, near_b);
-        std::size_t n = out.size();
-        out.resize(n + near_a.size() * near_b.size() + 1);
-        for (std::int32_t q : near_b) {
-            const searches::sphere pebble_q = pebble(q, shift);
-            for (std::int32_t p : near_a) {
-                out[n] = list(p, q);
-                n += searches::within(pebble(p, {}), pebble_q, wide_.margin);
-            }
-        }
-        out.resize(n);
-    }
-    /// Puts pairs into the order of the lists: two counting sorts, by the second pebble and then by the group of the
-    /// first. Among equals the search has put first pebbles in order, and both sorts leave them so.
-    void sort(const found_pairs& found, std::size_t which, pair_list& list) const {
-        const auto counting_sort = [](std::size_t keys, auto&& each, auto&& key, auto&& put) {
-            std::vector<std::uint32_t> next(keys + 1, 0);
-            each([&](const listed_pair& p) { ++next[key(p) + 1]; });
-            std::partial_sum(next.begin(), next.end(), next.begin());
-            each([&](const listed_pair& p) { put(next[key(p)]++, p); });
-        };
-        std::size_t count = 0;
-        for (const auto& part : found) count += part[which].size();
-        std::vector<listed_pair> by_second(count);
-        counting_sort(
-            grains.pebble_count(),
-            [&](auto&& f) {
-                for (const auto& part : found)
-                    for (const listed_pair& p : part[which]) f(p);
-            },
-            [](const listed_pair& p) { return at(p.pair.j); },
-            [&](std::size_t k, const listed_pair& p) { by_second[k] = p; });
-        list.pairs.resize(count);
-        if constexpr (periodic) list.image.resize(count);
-        counting_sort(
-            grains.grain_count(), [&](auto&& f) { std::for_each(by_second.begin(), by_second.end(), f); },
-            [&](const listed_pair& p) { return grains.group_of(p.pair.i); },
-            [&](std::size_t k, const listed_pair& p) {
-                list.pairs[k] = p.pair;
-                if constexpr (periodic) list.image[k] = p.image;
-            });
     }
 
     bool is_bonded(const pebble_pair& p) const {
@@ -1494,75 +1344,28 @@ template <triaxial_policies P> class engine {
         }
     }
 
-    /// Cuts the bodies into one range for each thread, with about equally many pairs of those that the search has
-    /// found, and brings the pairs between two ranges to the front, of its list and so of those that are picked from
-    /// it.
+    /// Cuts the bodies into one range for each thread, by the pairs that the search has found, and brings the pairs
+    /// between two ranges to the front, of its list and so of those that are picked from it.
     void cut_ranges() {
-        const std::size_t bodies = grains.body_count(), pairs = wide_.slow.size();
+        const std::size_t pairs = wide_.slow.size();
         // of the pairs that a search finds about half are listed
         const std::size_t enough = 2 * std::max<std::size_t>(1, settings.contacts_per_thread);
-        ranges_.resize(std::clamp<std::size_t>(pairs / enough, 1, static_cast<std::size_t>(settings.run.threads())));
-        acting_.assign(bodies, {});
-        std::vector<std::uint32_t> pairs_of(bodies, 0); // a pair counts for both of its bodies
-        for (const pebble_pair& p : wide_.slow.pairs) ++pairs_of[grains.body_of(p.i)], ++pairs_of[grains.body_of(p.j)];
-        std::size_t body = 0, sum = 0;
-        for (std::size_t r = 0; r < ranges_.size(); ++r) {
-            ranges_[r].first_body = body;
-            while (body < bodies && (sum < (r + 1) * 2 * pairs / ranges_.size() || r + 1 == ranges_.size()))
-                sum += pairs_of[body++];
-            ranges_[r].last_body = body;
-        }
+        ranges_.cut(grains.body_count(), wide_.slow.pairs,
+                    std::clamp<std::size_t>(pairs / enough, 1, static_cast<std::size_t>(settings.run.threads())),
+                    body_of());
+        sweeping_.resize(ranges_.size());
+        acting_.assign(grains.body_count(), {});
         bring_shared_forward(wide_.slow, between_ranges());
     }
-    /// Whether the bodies of a pair of clumps are in different ranges.
-    auto between_ranges() const {
-        return [this](const pebble_pair& p) {
-            const auto range_of = [&](std::int32_t pebble) {
-                return std::partition_point(ranges_.begin(), ranges_.end(),
-                                            [&](const body_range& r) { return r.last_body <= grains.body_of(pebble); });
-            };
-            return ranges_.size() > 1 && range_of(p.i) != range_of(p.j);
-        };
+    auto body_of() const {
+        return [this](std::int32_t pebble) { return grains.body_of(pebble); };
     }
-    /// Where the contacts of ranges, and of the bodies in them, are in the lists.
+    auto between_ranges() const {
+        return [this](const pebble_pair& p) { return ranges_.are_apart(grains.body_of(p.i), grains.body_of(p.j)); };
+    }
     void index_ranges() {
-        const auto first_of = [&](index_range rows, std::size_t body) {
-            const auto begin = slow_.pairs.begin();
-            return static_cast<std::size_t>(
-                std::partition_point(begin + static_cast<std::ptrdiff_t>(rows.begin),
-                                     begin + static_cast<std::ptrdiff_t>(rows.end),
-                                     [&](const pebble_pair& p) { return grains.body_of(p.i) < body; }) -
-                begin);
-        };
+        ranges_.index(slow_, slow_wall_, settings.run, body_of());
         shared_load_.resize(slow_.shared);
-        own_end_.resize(grains.body_count());
-        settings.run.for_each(
-            ranges_.size(),
-            [&](std::size_t number) {
-                body_range& r = ranges_[number];
-                r.first_row = first_of(slow_.behind(), r.first_body);
-                r.last_row = first_of(slow_.behind(), r.last_body);
-                r.first_shared = first_of(slow_.in_front(), r.first_body);
-                r.first_wall = static_cast<std::size_t>(
-                    std::partition_point(slow_wall_.begin(), slow_wall_.end(),
-                                         [&](const wall_row& w) { return grains.body_of(w.pebble) < r.first_body; }) -
-                    slow_wall_.begin());
-                // behind the last contact of a body, or where that of the bodies before it is
-                std::size_t end = r.first_row;
-                std::fill(own_end_.begin() + static_cast<std::ptrdiff_t>(r.first_body),
-                          own_end_.begin() + static_cast<std::ptrdiff_t>(r.last_body), 0U);
-                for (std::size_t k = r.first_row; k < r.last_row; ++k)
-                    own_end_[grains.body_of(slow_.pairs[k].i)] = static_cast<std::uint32_t>(k + 1);
-                for (std::size_t b = r.first_body; b < r.last_body; ++b) {
-                    end = std::max<std::size_t>(end, own_end_[b]);
-                    own_end_[b] = static_cast<std::uint32_t>(end);
-                }
-                r.incoming.clear();
-                for (std::uint32_t k = 0; k < slow_.shared; ++k)
-                    if (const std::size_t j = grains.body_of(slow_.pairs[k].j); r.first_body <= j && j < r.last_body)
-                        r.incoming.push_back(k);
-            },
-            1);
         if constexpr (periodic) {
             across_ = settings.run.where(slow_.size(), [&](std::size_t k) { return slow_.image[k] != no_shift; });
             across_force_.assign(across_.size(), {});
@@ -1729,8 +1532,8 @@ template <triaxial_policies P> class engine {
     body_items unlisted_; ///< the others
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
-    std::vector<body_range> ranges_;
-    std::vector<std::uint32_t> own_end_;    ///< per body: end of the contacts whose first body it is, in its range
+    body_ranges ranges_;
+    std::vector<range_work> sweeping_;      ///< per range
     std::vector<contact_load> shared_load_; ///< of the contacts between two ranges
     std::vector<body_load> acting_;         ///< per body; zero between steps
     bool look_ = false;                     ///< the criterion looks at this step
@@ -1739,11 +1542,7 @@ template <triaxial_policies P> class engine {
     engine_totals totals_;
     double dt_ = 0.0;
     double smallest_mass_ = std::numeric_limits<double>::infinity();
-    double skin_ = 0.0;         ///< of the present lists (m)
-    double start_skin_ = 0.0;   ///< of the first ones (m)
-    bool skin_used_up_ = false; ///< the next renewal is due because grains moved
-    std::int64_t listed_at_step_ = 0;
-    std::size_t open_pairs_ = 0;              ///< listed pairs that did not touch then
+    list_widths widths_;
     std::vector<std::uint32_t> across_;       ///< contacts across a face of a periodic cell, ascending
     std::vector<vec3> across_force_;          ///< and the forces on their first body (N)
     std::vector<std::uint32_t> across_order_; ///< their numbers, in the order of one thread
