@@ -27,7 +27,8 @@ namespace detail {
 class helpers {
   public:
     explicit helpers(int count) {
-        for (int i = 0; i < count; ++i) threads_.emplace_back([this] { help(); });
+        for (int i = 0; i < count; ++i)
+            threads_.emplace_back([this, i] { help(i % 2 == 0 ? side::back : side::front); });
     }
     ~helpers() {
         ticket_.store(stop, std::memory_order_seq_cst);
@@ -43,29 +44,34 @@ class helpers {
         f_ = f, context_ = context;
         done_.store(0, std::memory_order_relaxed);
         ++generation_;
-        // generation, number of chunks and next chunk in one word: a helper that is late cannot take a chunk of a loop
-        // it has not seen
+        // generation, end and begin of the chunks that are left in one word: a helper that is late cannot take a chunk
+        // of a loop it has not seen
         ticket_.store((generation_ & 0xffffff) << 40 | static_cast<std::uint64_t>(chunks) << 20,
                       std::memory_order_seq_cst);
         if (sleepers_.load(std::memory_order_seq_cst) > 0) ticket_.notify_all();
-        while (take()) {
+        while (take(side::front)) {
         }
         wait_while([&] { return done_.load(std::memory_order_acquire) < chunks; }, [] { return true; });
     }
 
   private:
     static constexpr std::uint64_t stop = ~std::uint64_t{0};
-    static constexpr std::uint64_t mask = 0xfffff;
+    static constexpr std::uint64_t mask = 0xfffff, one_less_at_end = std::uint64_t{1} << 20;
+    /// From which end a thread takes chunks: what it had in the last loop over the same things is in its cache.
+    enum class side { front, back };
 
-    static bool empty(std::uint64_t t) { return (t & mask) >= (t >> 20 & mask); }
+    static std::uint64_t begin(std::uint64_t t) { return t & mask; }
+    static std::uint64_t end(std::uint64_t t) { return t >> 20 & mask; }
 
     /// Takes and does one chunk; false if none is left.
-    bool take() {
-        std::uint64_t t = ticket_.load(std::memory_order_acquire);
+    bool take(side from) {
+        std::uint64_t t = ticket_.load(std::memory_order_acquire), left;
         do {
-            if (empty(t)) return false;
-        } while (!ticket_.compare_exchange_weak(t, t + 1, std::memory_order_acq_rel, std::memory_order_acquire));
-        f_(context_, static_cast<std::size_t>(t & mask)); // the caller cannot begin another loop before this is done
+            if (begin(t) >= end(t)) return false;
+            left = from == side::front ? t + 1 : t - one_less_at_end;
+        } while (!ticket_.compare_exchange_weak(t, left, std::memory_order_acq_rel, std::memory_order_acquire));
+        // the caller cannot begin another loop before this is done
+        f_(context_, static_cast<std::size_t>(from == side::front ? begin(t) : end(t) - 1));
         done_.fetch_add(1, std::memory_order_release);
         return true;
     }
@@ -85,11 +91,11 @@ class helpers {
         return false;
     }
 
-    void help() {
+    void help(side from) {
         for (;;) {
             std::uint64_t seen = ticket_.load(std::memory_order_acquire);
             if (seen == stop) return;
-            if (take()) continue;
+            if (take(from)) continue;
             // loops follow each other within microseconds, and to be woken takes tens of them
             const auto since = std::chrono::steady_clock::now();
             const auto recently = [&] {
