@@ -422,13 +422,18 @@ template <triaxial_policies P> class engine {
                               },
                               4);
     }
-    /// Slow contacts begin to end - 1, at most a strip.
-    void evaluate_slow(strip_type& s, std::size_t begin, std::size_t end, bool keep) {
+    /// Number of the first contact from row `row` on that goes across a face of a periodic cell.
+    std::size_t across_from(std::size_t row) const {
+        return static_cast<std::size_t>(std::lower_bound(across_.begin(), across_.end(), row) - across_.begin());
+    }
+    /// Slow contacts begin to end - 1, at most a strip. across: across_from(begin), then across_from(end).
+    void evaluate_slow(strip_type& s, std::size_t begin, std::size_t end, [[maybe_unused]] std::size_t& across,
+                       bool keep) {
         if constexpr (periodic) {
-            auto first =
-                static_cast<std::size_t>(std::lower_bound(across_.begin(), across_.end(), begin) - across_.begin());
+            const std::size_t first = across;
+            while (across < across_.size() && across_[across] < end) ++across;
             const auto each_across = [&](auto&& f) {
-                for (std::size_t a = first; a < across_.size() && across_[a] < end; ++a) f(a, across_[a] - begin);
+                for (std::size_t a = first; a < across; ++a) f(a, across_[a] - begin);
             };
             evaluate(s, slow_, begin, end, grains.view(), settings.grain_contact, dt_,
                      [&](strip_type& filled, std::size_t) {
@@ -560,7 +565,8 @@ template <triaxial_policies P> class engine {
         set_shifts();
         if (keep) slow_.rows.resize(slow_.size());
         each_strip(slow_.shared, [&](std::size_t begin, std::size_t end, strip_type& s) {
-            evaluate_slow(s, begin, end, keep);
+            std::size_t across = across_from(begin);
+            evaluate_slow(s, begin, end, across, keep);
             each_load(s, [&](std::size_t k, const contact_load& load) { shared_load_[begin + k] = load; });
         });
         settings.run.for_each(
@@ -590,6 +596,7 @@ template <triaxial_policies P> class engine {
         for (std::uint32_t k : r.incoming) shared_load_[k].add_to_j(acting_[grains.body_of(slow_.pairs[k].j)]);
         strip_type s;
         std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
+        std::size_t across = across_from(row);
         work.use = margin_use::within;
         for (;;) {
             for (; body < r.bodies.end && ranges_.end_of(body) <= row; ++body)
@@ -599,7 +606,7 @@ template <triaxial_policies P> class engine {
                 }
             if (row == r.rows.end) break;
             const std::size_t end = std::min(row + strip_type::length, r.rows.end);
-            evaluate_slow(s, row, end, keep);
+            evaluate_slow(s, row, end, across, keep);
             const pebble_pair* pairs = slow_.pairs.data() + row;
             each_load(s, [&](std::size_t k, const contact_load& load) {
                 load.add_to_i(acting_[grains.body_of(pairs[k].i)]);
