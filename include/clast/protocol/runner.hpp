@@ -203,8 +203,8 @@ template <triaxial_policies P> class runner {
     template <class A> void archive(A& a) {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
-          friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_,
-          error_count_, next_row_, row_start_, wall_time_, smoothed_p_);
+          friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_, error_count_,
+          next_row_, row_start_, wall_time_, smoothed_p_);
     }
 
   private:
