@@ -31,6 +31,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -1311,14 +1312,13 @@ template <triaxial_policies P> class engine {
     void index_fast() {
         fast_of_ = incidence(
             grains.motion.size(), fast_, [&](auto&& f) { fast_.each_in_order(pair_order(), f); }, fast_wall_,
-            [&](std::int32_t p) { return grains.body_of(p); });
+            body_of());
     }
     /// Which rows act on a swept body: made when it is asked for the first time after a renewal.
     void index_slow() {
         if (!slow_of_)
             slow_of_ = incidence(
-                grains.body_count(), slow_, [&](auto&& f) { each_slow(f); }, slow_wall_,
-                [&](std::int32_t p) { return grains.body_of(p); });
+                grains.body_count(), slow_, [&](auto&& f) { each_slow(f); }, slow_wall_, body_of());
     }
     /// Which pebbles of clumps the lists name, and which not.
     void sort_pebbles() {
@@ -1363,7 +1363,7 @@ template <triaxial_policies P> class engine {
                     body_of());
         sweeping_.resize(ranges_.size());
         acting_.assign(grains.body_count(), {});
-        bring_shared_forward(wide_.slow, between_ranges());
+        if (ranges_.size() > 1) bring_shared_forward(wide_.slow, between_ranges());
     }
     auto body_of() const {
         return [this](std::int32_t pebble) { return grains.body_of(pebble); };

@@ -149,9 +149,7 @@ template <class Law, class View>
     s.depth[k] = touching ? overlap : 0.0;
     s.dissipated[k] = answer.dissipated;
 }
-} // namespace detail
 
-namespace detail {
 template <class Law, class View>
 [[gnu::always_inline]] inline void answer_all(strip<Law, View>& s, typename Law::history* history, const Law& law,
                                               double h) {
