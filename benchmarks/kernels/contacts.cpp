@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Cost of contact laws: a strip in the first cache, and strips of a list with gathering and the sums of bodies.
+// Cost of contact laws with gathering: few contacts in the first cache, and a list with the sums of bodies.
 // A law of your own: #include its header and add one line, BENCHMARK_LAW(your_law{...}).
-#include <algorithm>
 #include <cstddef>
 #include <random>
-#include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -37,31 +35,42 @@ template <class Law> struct chain {
     }
 };
 
+/// Looks at results only.
+struct look_job {
+    template <class Strip> [[gnu::always_inline]] void adjust(Strip&, const contact_block&) const {}
+    template <class Width, class Strip>
+    [[gnu::always_inline]] void take(Width, const Strip& s, const contact_block& block) const {
+        benchmark::DoNotOptimize(s.fx[block.at]);
+    }
+};
+/// Adds to the loads of bodies.
+struct sum_job {
+    const pebble_pair* pairs;
+    body_load* loads;
+
+    template <class Strip> [[gnu::always_inline]] void adjust(Strip&, const contact_block&) const {}
+    template <class Width, class Strip>
+    [[gnu::always_inline]] void take(Width width, const Strip& s, const contact_block& block) const {
+        each_load(width, s, block, *this);
+    }
+    template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
+        load.add_to_i(loads[pairs[row].i]);
+        load.add_to_j(loads[pairs[row].j]);
+    }
+};
+
 template <class Law> void in_cache(benchmark::State& state, Law law) {
     chain<Law> c(128);
-    strip<Law, sphere_view> s;
-    gather(s, std::span<const pebble_pair>(c.list.pairs).first(s.length), sphere_view{c.pebbles.data()});
-    for (auto& past : s.past) past = {};
-    for (auto _ : state) {
-        evaluate(s, s.past, law, 1e-6);
-        benchmark::DoNotOptimize(s.fx[0]);
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.length));
+    for (auto _ : state) evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6, look_job{});
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));
 }
 
 template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
-    strip<Law, sphere_view> s;
     std::vector<body_load> load(c.pebbles.size());
     for (auto _ : state) {
-        for (std::size_t at = 0; at < c.list.size(); at += s.length) {
-            evaluate(s, c.list, at, std::min(at + s.length, c.list.size()), sphere_view{c.pebbles.data()}, law, 1e-6,
-                     [](auto&, std::size_t) {});
-            each_load(s, [&](std::size_t k, const contact_load& one) {
-                one.add_to_i(load[static_cast<std::size_t>(c.list.pairs[at + k].i)]);
-                one.add_to_j(load[static_cast<std::size_t>(c.list.pairs[at + k].j)]);
-            });
-        }
+        evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6,
+                 sum_job{c.list.pairs.data(), load.data()});
         benchmark::DoNotOptimize(load.data());
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));

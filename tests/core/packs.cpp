@@ -3,7 +3,6 @@
 
 #include <array>
 #include <type_traits>
-#include <vector>
 
 #include <catch.hpp>
 
@@ -43,12 +42,14 @@ TEST_CASE("four columns become four records") {
     double columns[4][4];
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t r = 0; r < 4; ++r) columns[c][r] = value(r, c);
-    std::vector<std::size_t> order;
-    transpose(columns[0], columns[1], columns[2], columns[3], [&](std::size_t r, const quad& v) {
-        order.push_back(r);
-        for (std::size_t c = 0; c < 4; ++c) CHECK(v[c] == value(r, c));
-    });
-    CHECK(order == std::vector<std::size_t>{0, 1, 2, 3});
+    const auto check = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
+        quad<N> record[4];
+        quad<N>::records(columns[0], columns[1], columns[2], columns[3], record);
+        for (std::size_t r = 0; r < 4; ++r)
+            for (std::size_t c = 0; c < 4; ++c) CHECK(record[r][c] == value(r, c));
+    };
+    check(std::integral_constant<std::size_t, 2>{});
+    check(std::integral_constant<std::size_t, 4>{});
 }
 
 TEST_CASE("the vectors of a block of records become columns, with and without the fourth number") {
@@ -70,14 +71,24 @@ TEST_CASE("the vectors of a block of records become columns, with and without th
     check(std::integral_constant<std::size_t, 4>{});
 }
 
-TEST_CASE("a quad holds four numbers in order and takes the fourth of another") {
-    const double numbers[4] = {5.0, 6.0, 7.0, 8.0};
-    const quad a(1.0, 2.0, 3.0, 4.0), b = a.with_fourth_of(quad::load(numbers));
-    double stored[4];
-    b.store(stored);
-    for (std::size_t k = 0; k < 4; ++k) {
-        CHECK(a[k] == static_cast<double>(k + 1));
-        CHECK(b[k] == (k < 3 ? a[k] : 8.0));
-        CHECK(stored[k] == b[k]);
-    }
+TEST_CASE("a quad holds four numbers in order, counts with them, and takes the fourth of another") {
+    const four numbers{5.0, 6.0, 7.0, 8.0};
+    CHECK(numbers.xyz() == vec3{5.0, 6.0, 7.0});
+    const auto check = [&]<std::size_t N>(std::integral_constant<std::size_t, N>) {
+        using quad = clast::quad<N>;
+        const quad a(1.0, 2.0, 3.0, 4.0), other = quad::load(&numbers), b = a.with_fourth_of(other);
+        const quad sum = a + other, rest = a - other, twice = 2.0 * a;
+        double stored[4];
+        b.store(stored);
+        for (std::size_t k = 0; k < 4; ++k) {
+            CHECK(a[k] == static_cast<double>(k + 1));
+            CHECK(b[k] == (k < 3 ? a[k] : 8.0));
+            CHECK(stored[k] == b[k]);
+            CHECK(sum[k] == static_cast<double>(2 * k + 6));
+            CHECK(rest[k] == -4.0);
+            CHECK(twice[k] == static_cast<double>(2 * k + 2));
+        }
+    };
+    check(std::integral_constant<std::size_t, 2>{});
+    check(std::integral_constant<std::size_t, 4>{});
 }

@@ -50,18 +50,44 @@ struct scene {
 
 using work_strip = strip<linear, sphere_view>;
 
-/// Contacts [begin, end) of a scene by strips, rows kept.
-template <class Adjust> void evaluate_all(scene& s, std::size_t begin, std::size_t end, Adjust&& adjust) {
-    work_strip work;
-    for (std::size_t at = begin; at < end; at += work_strip::length) {
-        evaluate(work, s.list, at, std::min(end, at + work_strip::length), sphere_view{s.pebbles.data()}, s.law, 1e-5,
-                 adjust);
-        keep_rows(work, s.list, at);
+/// Keeps all rows; operands may be changed by `change`.
+template <class F> struct row_job {
+    list_type& list;
+    F change;
+
+    template <class Strip> void adjust(Strip& s, const contact_block& block) const { change(s, block); }
+    template <class Width, class Strip> void take(Width, const Strip& s, const contact_block& block) const {
+        keep_rows(s, block, list.rows.data());
     }
+};
+
+/// Contacts [begin, end) of a scene, rows kept.
+template <class Adjust> void evaluate_all(scene& s, std::size_t begin, std::size_t end, Adjust&& adjust) {
+    evaluate(s.list, {begin, end}, sphere_view{s.pebbles.data()}, s.law, 1e-5, row_job<Adjust>{s.list, adjust});
 }
 void evaluate_all(scene& s, std::size_t begin, std::size_t end) {
-    evaluate_all(s, begin, end, [](work_strip&, std::size_t) {});
+    evaluate_all(s, begin, end, [](work_strip&, const contact_block&) {});
 }
+
+/// Keeps rows and loads.
+struct load_job {
+    list_type& list;
+    std::vector<contact_load<>>& loads;
+    std::size_t next = 0; ///< row to come
+    bool in_order = true;
+
+    void adjust(strip<linear, clump_view>&, const contact_block&) const {}
+    template <class Width>
+    [[gnu::always_inline]] void take(Width width, const strip<linear, clump_view>& s, const contact_block& block) {
+        keep_rows(s, block, list.rows.data());
+        in_order = in_order && block.row == next;
+        each_load(width, s, block, *this);
+        next += block.size;
+    }
+    template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
+        load.store(loads[row]);
+    }
+};
 
 bool same_bits(const list_type& a, const list_type& b) {
     return std::memcmp(a.rows.data(), b.rows.data(), a.size() * sizeof(force_row)) == 0 &&
@@ -70,7 +96,7 @@ bool same_bits(const list_type& a, const list_type& b) {
 
 } // namespace
 
-TEST_CASE("a strip answers every contact as the law does alone, and open pairs exert nothing") {
+TEST_CASE("every contact is answered as by the law alone, and open pairs exert nothing") {
     scene s(200);
     const list_type before = s.list;
     const double h = 1e-5;
@@ -113,7 +139,7 @@ TEST_CASE("a strip answers every contact as the law does alone, and open pairs e
     CHECK(worst < 1e-10); // u is a small difference
 }
 
-TEST_CASE("where a list is cut into strips does not change a bit") {
+TEST_CASE("where a list is cut does not change a bit") {
     scene whole(200), parts(200);
     evaluate_all(whole, 0, 200);
     for (std::size_t begin = 0, n = 1; begin < 200; begin += n, n = n * 2 + 1)
@@ -128,8 +154,8 @@ TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
     const vec3 edge{3.0, -2.0, 0.5}, speed{0.1, 0.0, -0.3};
     for (std::size_t k = 1; k < far.pebbles.size(); k += 2) far.pebbles[k].x -= edge, far.pebbles[k].v -= speed;
     evaluate_all(near, 0, 20);
-    evaluate_all(far, 0, 20, [&](work_strip& s, std::size_t) {
-        for (std::size_t k = 0; k < s.size; ++k) {
+    evaluate_all(far, 0, 20, [&](work_strip& s, const contact_block& block) {
+        for (std::size_t k = block.at; k < block.at + block.size; ++k) {
             s.dx[k] += edge.x, s.dy[k] += edge.y, s.dz[k] += edge.z;
             s.vx[k] += speed.x, s.vy[k] += speed.y, s.vz[k] += speed.z;
         }
@@ -139,7 +165,7 @@ TEST_CASE("pebbles can be taken elsewhere, as an image in a periodic cell") {
 }
 
 TEST_CASE("loads of both bodies are the row's force and its moments about their centres") {
-    scene s(70); // a whole strip and a part of one
+    scene s(70); // whole blocks and a part of one
     // every pebble belongs to a body whose centre is elsewhere, and moves with it
     std::vector<clump_pebble> pebbles;
     std::vector<body_motion> bodies;
@@ -157,35 +183,26 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
     const auto centre = [&](std::size_t p) { return bodies[static_cast<std::size_t>(owner[p])].x; };
     scene alone = s; // the same contacts of pebbles that are bodies themselves
     evaluate_all(alone, 0, 70);
-    strip<linear, clump_view> work;
+    std::vector<contact_load<>> loads(70);
+    const load_job done = evaluate(s.list, {0, 70}, clumps, s.law, 1e-5, load_job{s.list, loads});
+    CHECK(done.in_order);
+    CHECK(done.next == 70);
     std::size_t touching = 0, booked = 0;
-    for (std::size_t begin = 0; begin < 70; begin += 64) {
-        const std::size_t end = std::min<std::size_t>(70, begin + 64);
-        evaluate(work, s.list, begin, end, clumps, s.law, 1e-5, [](auto&, std::size_t) {});
-        keep_rows(work, s.list, begin);
-        std::size_t next = 0;
-        each_load(work, [&](std::size_t k, const contact_load& load) {
-            CHECK(k == next++);
-            const force_row& row = s.list.rows[begin + k];
-            CHECK(norm(row.force - alone.list.rows[begin + k].force) <= 1e-9 * norm(row.force));
-            const std::size_t i = 2 * (begin + k), j = i + 1;
-            const vec3 at = pebbles[i].x + (pebbles[i].radius - 0.5 * row.depth) * row.normal;
-            body_load a, b;
-            load.add_to_i(a), load.add_to_j(b);
-            const auto is = [](const quad& v, const vec3& w) {
-                return norm(vec3{v[0], v[1], v[2]} - w) <= 1e-12 * (norm(w) + 1e-9);
-            };
-            CHECK(is(a.force, row.force));
-            CHECK(is(b.force, -row.force));
-            CHECK(norm(vec3{a.moment[0], a.moment[1], a.moment[2]} - cross(at - centre(i), row.force)) <=
-                  1e-12 * norm(row.force));
-            CHECK(norm(vec3{b.moment[0], b.moment[1], b.moment[2]} + cross(at - centre(j), row.force)) <=
-                  1e-12 * norm(row.force));
-            CHECK(a.moment[3] == row.dissipated);
-            CHECK(b.moment[3] == 0.0);
-            touching += row.depth > 0.0, booked += row.dissipated > 0.0;
-        });
-        CHECK(next == end - begin);
+    for (std::size_t row = 0; row < 70; ++row) {
+        const force_row& f = s.list.rows[row];
+        CHECK(norm(f.force - alone.list.rows[row].force) <= 1e-9 * norm(f.force));
+        const std::size_t i = 2 * row, j = i + 1;
+        const vec3 at = pebbles[i].x + (pebbles[i].radius - 0.5 * f.depth) * f.normal;
+        body_load a, b;
+        loads[row].add_to_i(a), loads[row].add_to_j(b);
+        const auto is = [](const four& v, const vec3& w) { return norm(v.xyz() - w) <= 1e-12 * (norm(w) + 1e-9); };
+        CHECK(is(a.force, f.force));
+        CHECK(is(b.force, -f.force));
+        CHECK(norm(a.moment.xyz() - cross(at - centre(i), f.force)) <= 1e-12 * norm(f.force));
+        CHECK(norm(b.moment.xyz() + cross(at - centre(j), f.force)) <= 1e-12 * norm(f.force));
+        CHECK(a.moment.w == f.dissipated);
+        CHECK(b.moment.w == 0.0);
+        touching += f.depth > 0.0, booked += f.dissipated > 0.0;
     }
     CHECK(touching > 20);
     CHECK(booked > 5);

@@ -189,12 +189,16 @@ class cluster_pool {
         // half a drift at either end, so that a step of one sub-step is of second order, too
         for (std::size_t k = 0; k < vectors; ++k) u[k] = 0.5 * h * v[k];
         const auto stretch_bonds = [&](int step, double span) {
-            if (with_widest_registers([=, this, &left] { return gather(batch, left, span, v, w, f, t, axis); }))
+            if (with_widest_registers([ =, this, &left ](auto) __attribute__((always_inline)) {
+                    return gather(batch, left, span, v, w, f, t, axis);
+                }))
                 collect(batch, step, axis, f, t, broken);
         };
         stretch_bonds(0, 0.5 * h);
         for (int step = 1; step <= steps; ++step) {
-            with_widest_registers([=, this, &live, &dissipated] { kick(h, v, w, fe, te, f, t, u, live, dissipated); });
+            with_widest_registers([ =, this, &live, &dissipated ](auto) __attribute__((always_inline)) {
+                kick(h, v, w, fe, te, f, t, u, live, dissipated);
+            });
             stretch_bonds(step, step < steps ? h : 0.5 * h);
         }
         for (std::size_t k = 0; k < vectors; ++k) u[k] -= 0.5 * h * v[k];

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include <clast/core/vector.hpp>
 
@@ -24,22 +25,34 @@
 
 namespace clast {
 
+/// How many doubles code handles at once that works by registers (core/packs.hpp): 4, or 2 where they hold no more.
+template <std::size_t N> using register_width = std::integral_constant<std::size_t, N>;
+/// The width of the registers that the program is built for.
+#if defined(__AVX__)
+using own_width = register_width<4>;
+#else
+using own_width = register_width<2>;
+#endif
+
 #if defined(CLAST_WIDER_AT_RUN_TIME)
 namespace detail {
 template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx512f,avx512vl,avx512dq")]] auto run_by_eights(F f) {
-    return f();
+    return f(register_width<4>{});
 }
-template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx2")]] auto run_by_fours(F f) { return f(); }
+template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx2")]] auto run_by_fours(F f) {
+    return f(register_width<4>{});
+}
 } // namespace detail
 #endif
-/// f(), compiled for the widest registers that the processor has. f is copied: what it holds by value need not be read
-/// again behind every store.
+/// f(register_width), compiled for the widest registers that the processor has. f is copied: what it holds by value
+/// need not be read again behind every store. A lambda should be always_inline: GCC may otherwise compile it on its
+/// own, where it no longer knows what does not overlap, and then its loops are not vectorised.
 template <class F> [[gnu::always_inline]] inline auto with_widest_registers(F f) {
 #if defined(CLAST_WIDER_AT_RUN_TIME)
     if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) return detail::run_by_eights(f);
     if (__builtin_cpu_supports("avx2")) return detail::run_by_fours(f);
 #endif
-    return f();
+    return f(own_width{});
 }
 
 /// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From records in memory to one array per component and back: transposes of blocks of the width that the target has.
+// From records in memory to one array per component and back: transposes of blocks of 2 or 4, as registers have it.
 #pragma once
 
 #include <array>
@@ -8,18 +8,12 @@
 #include <type_traits>
 
 #include <clast/core/lanes.hpp>
+#include <clast/core/vector.hpp>
 
 namespace clast {
 
 using lane2 = double __attribute__((vector_size(16)));
 using lane4 = double __attribute__((vector_size(32)));
-
-/// As many doubles as are transposed at once: what one register of the target takes.
-#if defined(__AVX__)
-inline constexpr std::size_t pack_size = 4;
-#else
-inline constexpr std::size_t pack_size = 2;
-#endif
 
 /// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
 template <std::size_t N> class pack_columns {
@@ -79,25 +73,34 @@ template <std::size_t N>
     xy.first(x), xy.second(y), zw.first(z), zw.second(w);
 }
 
-/// Four doubles with elementwise arithmetic, in as many registers as the target needs.
-class quad {
+/// A vector and one more number, side by side in memory.
+struct alignas(32) four {
+    double x = 0.0, y = 0.0, z = 0.0, w = 0.0;
+    constexpr vec3 xyz() const { return {x, y, z}; }
+};
+
+/// Four doubles with elementwise arithmetic, in registers of N (2 or 4).
+template <std::size_t N> class quad {
+    using pack = std::conditional_t<N == 4, lane4, lane2>;
+    static constexpr std::size_t parts = 4 / N;
+
   public:
     quad() = default;
     [[gnu::always_inline]] quad(double x, double y, double z, double w) {
         // in registers: what goes through memory in pieces is waited for when it is loaded as a whole
-#if defined(__AVX__)
-        part_[0] = pack{x, y, z, w};
-#else
-        part_[0] = pack{x, y}, part_[1] = pack{z, w};
-#endif
+        if constexpr (N == 4)
+            part_[0] = pack{x, y, z, w};
+        else
+            part_[0] = pack{x, y}, part_[1] = pack{z, w};
     }
+    /// From and to 32 bytes of any alignment.
     [[gnu::always_inline]] static quad load(const void* from) {
         quad q;
         std::memcpy(q.part_, from, sizeof q.part_);
         return q;
     }
     [[gnu::always_inline]] void store(void* to) const { std::memcpy(to, part_, sizeof part_); }
-    [[gnu::always_inline]] double operator[](std::size_t k) const { return part_[k / pack_size][k % pack_size]; }
+    [[gnu::always_inline]] double operator[](std::size_t k) const { return part_[k / N][k % N]; }
 
     [[gnu::always_inline]] quad& operator+=(const quad& b) {
         for (std::size_t k = 0; k < parts; ++k) part_[k] += b.part_[k];
@@ -107,53 +110,51 @@ class quad {
         for (std::size_t k = 0; k < parts; ++k) part_[k] -= b.part_[k];
         return *this;
     }
-    [[gnu::always_inline]] friend quad operator+(quad a, const quad& b) { return a += b; }
-    [[gnu::always_inline]] friend quad operator*(double s, quad a) {
-        for (std::size_t k = 0; k < parts; ++k) a.part_[k] *= s;
-        return a;
+    [[gnu::always_inline]] friend quad operator+(const quad& a, const quad& b) {
+        quad sum = a;
+        sum += b;
+        return sum;
+    }
+    [[gnu::always_inline]] friend quad operator-(const quad& a, const quad& b) {
+        quad rest = a;
+        rest -= b;
+        return rest;
+    }
+    [[gnu::always_inline]] friend quad operator*(double s, const quad& a) {
+        quad scaled;
+        for (std::size_t k = 0; k < parts; ++k) scaled.part_[k] = s * a.part_[k];
+        return scaled;
     }
     /// The same with the fourth number of another.
     [[gnu::always_inline]] quad with_fourth_of(const quad& b) const {
         quad q = *this;
-#if defined(__AVX__)
-        q.part_[0] = __builtin_shufflevector(part_[0], b.part_[0], 0, 1, 2, 7);
-#else
-        q.part_[1] = __builtin_shufflevector(part_[1], b.part_[1], 0, 3);
-#endif
+        if constexpr (N == 4)
+            q.part_[0] = __builtin_shufflevector(part_[0], b.part_[0], 0, 1, 2, 7);
+        else
+            q.part_[1] = __builtin_shufflevector(part_[1], b.part_[1], 0, 3);
         return q;
+    }
+    /// The four records {x[l], y[l], z[l], w[l]}.
+    [[gnu::always_inline]] static void records(const double* x, const double* y, const double* z, const double* w,
+                                               quad (&r)[4]) {
+        if constexpr (N == 4) {
+            const quad a = load(x), b = load(y), c = load(z), d = load(w);
+            const pack xy_even = __builtin_shufflevector(a.part_[0], b.part_[0], 0, 4, 2, 6);
+            const pack xy_odd = __builtin_shufflevector(a.part_[0], b.part_[0], 1, 5, 3, 7);
+            const pack zw_even = __builtin_shufflevector(c.part_[0], d.part_[0], 0, 4, 2, 6);
+            const pack zw_odd = __builtin_shufflevector(c.part_[0], d.part_[0], 1, 5, 3, 7);
+            r[0].part_[0] = __builtin_shufflevector(xy_even, zw_even, 0, 1, 4, 5);
+            r[1].part_[0] = __builtin_shufflevector(xy_odd, zw_odd, 0, 1, 4, 5);
+            r[2].part_[0] = __builtin_shufflevector(xy_even, zw_even, 2, 3, 6, 7);
+            r[3].part_[0] = __builtin_shufflevector(xy_odd, zw_odd, 2, 3, 6, 7);
+        } else {
+            for (std::size_t l = 0; l < 4; ++l) r[l] = quad(x[l], y[l], z[l], w[l]);
+        }
     }
 
   private:
-    using pack = std::conditional_t<pack_size == 4, lane4, lane2>;
-    static constexpr std::size_t parts = 4 / pack_size;
     pack part_[parts] = {};
 };
-
-/// put(l, {x[l], y[l], z[l], w[l]}) for l = 0 to 3.
-template <class F>
-[[gnu::always_inline]] inline void transpose(const double* x, const double* y, const double* z, const double* w,
-                                             F&& put) {
-#if defined(__AVX__)
-    const auto load = [](const double* p) {
-        lane4 v;
-        std::memcpy(&v, p, sizeof v);
-        return v;
-    };
-    const auto out = [&](std::size_t l, const lane4& v) {
-        double record[4];
-        std::memcpy(record, &v, sizeof v);
-        put(l, quad::load(record));
-    };
-    const lane4 a = load(x), b = load(y), c = load(z), d = load(w);
-    const lane4 xy_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), xy_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const lane4 zw_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), zw_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    out(0, __builtin_shufflevector(xy_even, zw_even, 0, 1, 4, 5));
-    out(1, __builtin_shufflevector(xy_odd, zw_odd, 0, 1, 4, 5));
-    out(2, __builtin_shufflevector(xy_even, zw_even, 2, 3, 6, 7));
-    out(3, __builtin_shufflevector(xy_odd, zw_odd, 2, 3, 6, 7));
-#else
-    for (std::size_t l = 0; l < 4; ++l) put(l, quad(x[l], y[l], z[l], w[l]));
-#endif
-}
+static_assert(sizeof(quad<2>) == sizeof(four) && sizeof(quad<4>) == sizeof(four));
 
 } // namespace clast

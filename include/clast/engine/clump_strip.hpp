@@ -105,7 +105,8 @@ namespace detail {
 
 /// Moves the clumps of a strip by one step h (s) under their loads, with local damping of force and moment.
 [[gnu::noinline, gnu::flatten]] inline void advance(clump_strip& s, double h, double damping) {
-    with_widest_registers([&s, h, damping] { detail::advance_lanes(s, h, damping); });
+    with_widest_registers([&s, h, damping ](auto)
+                              __attribute__((always_inline)) { detail::advance_lanes(s, h, damping); });
     for (std::size_t k = 0; k < s.size; ++k) {
         if (s.angle2[k] < small_step2) continue;
         const turned t = advance_rotation({s.qw[k], s.qx[k], s.qy[k], s.qz[k]}, {s.lx[k], s.ly[k], s.lz[k]},
@@ -113,7 +114,7 @@ namespace detail {
         s.nw[k] = t.q.w, s.nx[k] = t.q.x, s.ny[k] = t.q.y, s.nz[k] = t.q.z;
         s.wx[k] = t.spin.x, s.wy[k] = t.spin.y, s.wz[k] = t.spin.z;
     }
-    with_widest_registers([&s] { detail::finish_lanes(s); });
+    with_widest_registers([&s](auto) __attribute__((always_inline)) { detail::finish_lanes(s); });
 }
 
 } // namespace clast

@@ -6,12 +6,12 @@
 //       balls sum their rows in one fixed order, are damped and integrated; clusters sub-cycle their bonds
 //   slow facets (clump against facet)                                                                  rows at t_n
 //   servo
-//   sweep: slow contacts (clump against clump) in strips, added to the loads of their bodies
+//   sweep: slow contacts (clump against clump) in blocks of 8, added to the loads of their bodies
 //       behind them clumps add walls and the mean of the fast rows, are looked at by the criterion every few steps,
 //       damped and integrated, while everything is still at hand
 //   boundary moves; replacement
 //
-// Sweep: pairs are sorted by their first body, then by their second pebble. So when the strips have passed the pairs of
+// Sweep: pairs are sorted by their first body, then by their second pebble. So when the sweep has passed the pairs of
 // body i, every contact of i has been evaluated, as the first body or as the second, and i may move: no later contact
 // reads it. With several threads each sweeps a range of bodies of its own; contacts between two ranges are evaluated
 // before. In the order of the list the contacts of a body with lower ranges come first and those with higher ranges
@@ -334,6 +334,7 @@ template <triaxial_policies P> class engine {
     }
 
   private:
+    static constexpr std::size_t rows_at_once = 256; ///< contacts that are evaluated in one go
     using strip_type = strip<contact, decltype(std::declval<const specimen_type&>().view())>;
 
     /// f(k) for the slow contacts in the order that one thread gives them.
@@ -388,68 +389,100 @@ template <triaxial_policies P> class engine {
 
     // ---- forces ---------------------------------------------------------------------------------------------------
 
-    /// Rows of the fast list and its wall, `ahead` seconds from t_n: clumps are where their velocity takes them, balls
-    /// have been placed by their sub-step. h: span since the last evaluation.
-    void evaluate_fast(double h, double ahead) {
-        const auto owned_by_clump = [&](std::int32_t p) { return at(grains.owner[at(p)]) < grains.grain_count(); };
-        const auto place = [&](strip_type& s, std::size_t begin) {
-            for (std::size_t k = 0; k < s.size; ++k) {
-                const pebble_pair& p = fast_.pairs[begin + k];
+    /// Fast contacts: clumps are where their velocity takes them, `ahead` seconds from t_n, balls have been placed by
+    /// their sub-step. All rows are kept.
+    struct fast_job {
+        engine& owner;
+        double ahead;
+
+        [[gnu::always_inline]] void adjust(strip_type& s, const contact_block& block) const {
+            const specimen_type& g = owner.grains;
+            const auto is_clump = [&g](std::int32_t p) { return at(g.owner[at(p)]) < g.grain_count(); };
+            for (std::size_t k = block.at; k < block.at + block.size; ++k) {
+                const pebble_pair& p = owner.fast_.pairs[block.row + k - block.at];
                 vec3 by;
-                if (owned_by_clump(p.i))
-                    by -= ahead * grains.velocity_of(p.i);
+                if (is_clump(p.i))
+                    by -= ahead * g.velocity_of(p.i);
                 else // a ball is placed elsewhere than its motion, which trails it
                     s.aix[k] = s.aiy[k] = s.aiz[k] = 0.0;
-                if (owned_by_clump(p.j))
-                    by += ahead * grains.velocity_of(p.j);
+                if (is_clump(p.j))
+                    by += ahead * g.velocity_of(p.j);
                 else
                     s.ajx[k] = s.ajy[k] = s.ajz[k] = 0.0;
                 s.dx[k] += by.x, s.dy[k] += by.y, s.dz[k] += by.z;
             }
-        };
-        each_strip(fast_.size(), [&](std::size_t begin, std::size_t end, strip_type& s) {
-            evaluate(s, fast_, begin, end, grains.view(), settings.grain_contact, h, place);
-            keep_rows(s, fast_, begin);
+        }
+        template <class Width>
+        [[gnu::always_inline]] void take(Width, const strip_type& s, const contact_block& block) const {
+            keep_rows(s, block, owner.fast_.rows.data());
+        }
+    };
+    /// Rows of the fast list and its wall, `ahead` seconds from t_n. h: span since the last evaluation.
+    void evaluate_fast(double h, double ahead) {
+        each_chunk(fast_.size(), [&](index_range some) {
+            evaluate(fast_, some, grains.view(), settings.grain_contact, h, fast_job{*this, ahead});
         });
         settings.run.for_each(fast_wall_.size(), [&](std::size_t k) { evaluate_wall(fast_wall_[k], h, ahead); });
     }
-    /// f(begin, end, strip) for the first n contacts of a list by strips, side by side on all threads.
-    template <class F> void each_strip(std::size_t n, F&& f) {
-        constexpr std::size_t length = strip_type::length;
-        settings.run.for_each((n + length - 1) / length,
+    /// f(rows) for the first n contacts of a list by chunks, side by side on all threads.
+    template <class F> void each_chunk(std::size_t n, F&& f) {
+        settings.run.for_each((n + rows_at_once - 1) / rows_at_once,
                               [&](std::size_t k) {
-                                  strip_type s;
-                                  f(k * length, std::min(n, (k + 1) * length), s);
+                                  f(index_range{k * rows_at_once, std::min(n, (k + 1) * rows_at_once)});
                               },
-                              4);
+                              1);
     }
     /// Number of the first contact from row `row` on that goes across a face of a periodic cell.
     std::size_t across_from(std::size_t row) const {
         return static_cast<std::size_t>(std::lower_bound(across_.begin(), across_.end(), row) - across_.begin());
     }
-    /// Slow contacts begin to end - 1, at most a strip. across: across_from(begin), then across_from(end).
-    void evaluate_slow(strip_type& s, std::size_t begin, std::size_t end, [[maybe_unused]] std::size_t& across,
-                       bool keep) {
-        if constexpr (periodic) {
-            const std::size_t first = across;
-            while (across < across_.size() && across_[across] < end) ++across;
-            const auto each_across = [&](auto&& f) {
-                for (std::size_t a = first; a < across; ++a) f(a, across_[a] - begin);
-            };
-            evaluate(s, slow_, begin, end, grains.view(), settings.grain_contact, dt_,
-                     [&](strip_type& filled, std::size_t) {
-                         each_across([&](std::size_t, std::size_t k) {
-                             const std::uint8_t image = slow_.image[begin + k];
-                             filled.dx[k] += shift_[image].x, filled.vx[k] += shift_speed_[image].x;
-                             filled.dy[k] += shift_[image].y, filled.vy[k] += shift_speed_[image].y;
-                             filled.dz[k] += shift_[image].z, filled.vz[k] += shift_speed_[image].z;
-                         });
-                     });
-            each_across([&](std::size_t a, std::size_t k) { across_force_[a] = {s.fx[k], s.fy[k], s.fz[k]}; });
-        } else {
-            evaluate(s, slow_, begin, end, grains.view(), settings.grain_contact, dt_, [](strip_type&, std::size_t) {});
+    /// Slow contacts: what they exert is added to their bodies, or kept if they are between two ranges.
+    struct slow_job {
+        engine& owner;
+        std::size_t gathered, taken; ///< where in across_ to go on
+        bool shared;                 ///< between two ranges
+        force_row* rows;             ///< of the list, or nullptr if nobody looks at them
+        body_load* const acting = owner.acting_.data();
+        contact_load<>* const shared_load = owner.shared_load_.data();
+        const pebble_pair* const pairs = owner.slow_.pairs.data();
+
+        [[gnu::always_inline]] void adjust(strip_type& s, const contact_block& block) {
+            if constexpr (periodic)
+                each_across(gathered, block, [&](std::size_t a, std::size_t k) {
+                    const std::uint8_t image = owner.slow_.image[owner.across_[a]];
+                    const vec3 &by = owner.shift_[image], &faster = owner.shift_speed_[image];
+                    s.dx[k] += by.x, s.dy[k] += by.y, s.dz[k] += by.z;
+                    s.vx[k] += faster.x, s.vy[k] += faster.y, s.vz[k] += faster.z;
+                });
         }
-        if (keep) keep_rows(s, slow_, begin);
+        template <class Width>
+        [[gnu::always_inline]] void take(Width width, const strip_type& s, const contact_block& block) {
+            each_load(width, s, block, *this);
+            if constexpr (periodic)
+                each_across(taken, block, [&](std::size_t a, std::size_t k) {
+                    owner.across_force_[a] = {s.fx[k], s.fy[k], s.fz[k]};
+                });
+            if (rows != nullptr) keep_rows(s, block, rows);
+        }
+        template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
+            if (shared) {
+                load.store(shared_load[row]);
+            } else {
+                load.add_to_i(acting[owner.grains.body_of(pairs[row].i)]);
+                load.add_to_j(acting[owner.grains.body_of(pairs[row].j)]);
+            }
+        }
+        /// f(a, lane) for every contact of a block that goes across a face of a periodic cell.
+        template <class F> void each_across(std::size_t& a, const contact_block& block, F&& f) const {
+            for (; a < owner.across_.size() && owner.across_[a] < block.row + block.size; ++a)
+                f(a, block.at + owner.across_[a] - block.row);
+        }
+    };
+    /// Evaluates some slow contacts. across: across_from(rows.begin); returns that of rows.end.
+    std::size_t evaluate_slow(index_range rows, std::size_t across, bool keep) {
+        return evaluate(slow_, rows, grains.view(), settings.grain_contact, dt_,
+                        slow_job{*this, across, across, rows.begin < slow_.shared, keep ? slow_.rows.data() : nullptr})
+            .taken;
     }
     void set_shifts() {
         if constexpr (periodic)
@@ -565,11 +598,7 @@ template <triaxial_policies P> class engine {
     margin_use sweep(bool keep) {
         set_shifts();
         if (keep) slow_.rows.resize(slow_.size());
-        each_strip(slow_.shared, [&](std::size_t begin, std::size_t end, strip_type& s) {
-            std::size_t across = across_from(begin);
-            evaluate_slow(s, begin, end, across, keep);
-            each_load(s, [&](std::size_t k, const contact_load& load) { shared_load_[begin + k] = load; });
-        });
+        each_chunk(slow_.shared, [&](index_range some) { evaluate_slow(some, across_from(some.begin), keep); });
         settings.run.for_each(
             ranges_.size(), [&](std::size_t r) { sweep_range(ranges_[r], sweeping_[r], keep); }, 1);
         margin_use use = margin_use::within;
@@ -595,7 +624,6 @@ template <triaxial_policies P> class engine {
 
     void sweep_range(const body_range& r, range_work& work, bool keep) {
         for (std::uint32_t k : r.incoming) shared_load_[k].add_to_j(acting_[grains.body_of(slow_.pairs[k].j)]);
-        strip_type s;
         std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
         std::size_t across = across_from(row);
         work.use = margin_use::within;
@@ -606,13 +634,8 @@ template <triaxial_policies P> class engine {
                     if (work.ready.size() == clump_strip::length) move_ready(work);
                 }
             if (row == r.rows.end) break;
-            const std::size_t end = std::min(row + strip_type::length, r.rows.end);
-            evaluate_slow(s, row, end, across, keep);
-            const pebble_pair* pairs = slow_.pairs.data() + row;
-            each_load(s, [&](std::size_t k, const contact_load& load) {
-                load.add_to_i(acting_[grains.body_of(pairs[k].i)]);
-                load.add_to_j(acting_[grains.body_of(pairs[k].j)]);
-            });
+            const std::size_t end = std::min(row + rows_at_once, r.rows.end);
+            across = evaluate_slow({row, end}, across, keep);
             row = end;
         }
         move_ready(work);
@@ -623,8 +646,7 @@ template <triaxial_policies P> class engine {
         body_load& sum = acting_[g];
         for (; shared < slow_.shared && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
             shared_load_[shared].add_to_i(sum);
-        load_sum load{
-            {sum.force[0], sum.force[1], sum.force[2]}, {sum.moment[0], sum.moment[1], sum.moment[2]}, sum.moment[3]};
+        load_sum load{sum.force.xyz(), sum.moment.xyz(), sum.moment.w};
         sum = {};
         for (; wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == g; ++wall) {
             const wall_row& w = slow_wall_[wall];
@@ -1541,11 +1563,11 @@ template <triaxial_policies P> class engine {
     std::vector<boundaries::facet_load> loads_, work_loads_;
     std::vector<boundaries::coupling> couplings_;
     body_ranges ranges_;
-    std::vector<range_work> sweeping_;      ///< per range
-    std::vector<contact_load> shared_load_; ///< of the contacts between two ranges
-    std::vector<body_load> acting_;         ///< per body; zero between steps
-    bool look_ = false;                     ///< the criterion looks at this step
-    std::vector<birth_certificate> marked_; ///< empty between steps
+    std::vector<range_work> sweeping_;        ///< per range
+    std::vector<contact_load<>> shared_load_; ///< of the contacts between two ranges
+    std::vector<body_load> acting_;           ///< per body; zero between steps
+    bool look_ = false;                       ///< the criterion looks at this step
+    std::vector<birth_certificate> marked_;   ///< empty between steps
     std::conditional_t<breakable, breakage_state, nothing> broken_;
     engine_totals totals_;
     double dt_ = 0.0;

@@ -208,20 +208,28 @@ struct specimen {
         clump_strip s;
         for (; !bodies.empty(); bodies = bodies.subspan(s.size)) {
             s.size = std::min(clump_strip::length, bodies.size());
-            fill(s, bodies.data(), allowed.since.data(), allowed.stretch);
+            const moving_body* const some = bodies.data();
+            const reference* const since = allowed.since.data();
+            const vec3 stretch = allowed.stretch;
+            with_widest_registers([ =, this, &s ](auto width)
+                                      __attribute__((always_inline)) { this->fill(width, s, some, since, stretch); });
             clast::advance(s, h, damping);
-            for (std::size_t k = 0; k < s.size; k += 4) {
-                axes_of_four axes;
-                take(s, k, bodies.data(), axes);
-                for (std::size_t l = 0; l < 4 && k + l < s.size; ++l) {
-                    const moving_body& one = bodies[k + l];
-                    const std::size_t g = one.body;
-                    losses[g].damping += s.damped[k + l];
-                    losses[g].friction += one.load.dissipated;
-                    const placement to(motion[g], axes[l], shape_of(grains[g]), grains[g].first);
-                    for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
-                    use = std::max(use, use_of(s.moved[k + l] + further(g), allowed.margins[g]));
+            with_widest_registers([ =, this, &s, &wanted ](auto width) __attribute__((always_inline)) {
+                for (std::size_t k = 0; k < s.size; k += 4) {
+                    axes_of_four axes;
+                    this->take(width, s, k, some, axes);
+                    for (std::size_t l = 0; l < 4 && k + l < s.size; ++l) {
+                        const std::size_t g = some[k + l].body;
+                        const placement<width()> to(motion[g], axes[l], shape_of(grains[g]), grains[g].first);
+                        for (std::int32_t p : wanted.of(g)) to.put(p, pebbles[static_cast<std::size_t>(p)]);
+                    }
                 }
+            });
+            for (std::size_t k = 0; k < s.size; ++k) {
+                const std::size_t g = bodies[k].body;
+                losses[g].damping += s.damped[k];
+                losses[g].friction += bodies[k].load.dissipated;
+                use = std::max(use, use_of(s.moved[k] + further(g), allowed.margins[g]));
             }
         }
         return use;
@@ -250,23 +258,24 @@ struct specimen {
 
   private:
     /// Where the pebbles of a clump are: x = X + R o, by columns of R.
-    class placement {
+    template <std::size_t N> class placement {
       public:
-        placement(const body_motion& m, const double (&axes)[3][4], const shape& s, std::int32_t first)
+        [[gnu::always_inline]] placement(const body_motion& m, const double (&axes)[3][4], const shape& s,
+                                         std::int32_t first)
             : pebbles_(s.pebbles.data()), first_(first),
-              x_(quad::load(&m)), axes_{quad::load(axes[0]), quad::load(axes[1]), quad::load(axes[2])} {}
-        void put(std::int32_t p, clump_pebble& to) const {
+              x_(quad<N>::load(&m)), axes_{quad<N>::load(axes[0]), quad<N>::load(axes[1]), quad<N>::load(axes[2])} {}
+        [[gnu::always_inline]] void put(std::int32_t p, clump_pebble& to) const {
             const vec3& o = pebbles_[p - first_].offset;
-            const quad x = x_ + (o.x * axes_[0] + o.y * axes_[1] + o.z * axes_[2]);
-            x.with_fourth_of(quad::load(&to)).store(&to);
+            const quad<N> x = x_ + (o.x * axes_[0] + o.y * axes_[1] + o.z * axes_[2]);
+            x.with_fourth_of(quad<N>::load(&to)).store(&to);
         }
 
       private:
         const shape_pebble* pebbles_;
         std::int32_t first_;
-        quad x_, axes_[3];
+        quad<N> x_, axes_[3];
     };
-    placement placement_of(std::size_t g) const {
+    placement<own_width::value> placement_of(std::size_t g) const {
         const mat3 m = matrix(turning[g].q);
         const double axes[3][4] = {
             {m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
@@ -274,12 +283,14 @@ struct specimen {
     }
     /// Fills a strip whose size is set with bodies and where displacements count from; unused lanes repeat the last
     /// body.
-    void fill(clump_strip& s, const moving_body* bodies, const reference* since, const vec3& stretch) const {
+    template <std::size_t N>
+    [[gnu::always_inline]] void fill(register_width<N>, clump_strip& s, const moving_body* bodies,
+                                     const reference* since, const vec3& stretch) const {
         const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
-        constexpr std::size_t block = sizeof(quad);
-        for (std::size_t k = 0; k < s.lanes(); k += pack_size) {
-            std::array<const std::byte*, pack_size> load, move, turn, then, common;
-            for (std::size_t l = 0; l < pack_size; ++l) {
+        constexpr std::size_t block = sizeof(four);
+        for (std::size_t k = 0; k < s.lanes(); k += N) {
+            std::array<const std::byte*, N> load, move, turn, then, common;
+            for (std::size_t l = 0; l < N; ++l) {
                 const moving_body& one = bodies[std::min(k + l, s.size - 1)];
                 const std::size_t g = one.body;
                 load[l] = bytes(one.load), move[l] = bytes(motion[g]), turn[l] = bytes(turning[g]);
@@ -295,30 +306,35 @@ struct specimen {
             transpose(then, 0, s.tw + k, s.tx + k, s.ty + k, s.tz + k);
             transpose(then, block, s.cx + k, s.cy + k, s.cz + k);
             transpose(common, 0, s.ix + k, s.iy + k, s.iz + k, s.inverse_mass + k);
-            pack_columns<pack_size>(common, block).first(s.reach + k);
-            for (std::size_t l = k; l < k + pack_size; ++l)
-                s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
+            pack_columns<N>(common, block).first(s.reach + k);
+            for (std::size_t l = k; l < k + N; ++l) s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
         }
     }
     /// Columns of the matrices of four orientations, with a spare number each.
     using axes_of_four = double[4][3][4];
     /// Takes the new state of up to four bodies from place k of a strip on.
-    void take(const clump_strip& s, std::size_t k, const moving_body* bodies, axes_of_four& axes) {
+    template <std::size_t N>
+    [[gnu::always_inline]] void take(register_width<N>, const clump_strip& s, std::size_t k, const moving_body* bodies,
+                                     axes_of_four& axes) {
         static constexpr double nothing[4] = {};
         const auto each = [&](auto& records, std::size_t block, const double* a, const double* b, const double* c,
-                              const double* d) {
-            transpose(a, b, c, d, [&](std::size_t l, const quad& v) {
-                if (k + l < s.size) v.store(reinterpret_cast<std::byte*>(&records[bodies[k + l].body]) + block);
-            });
+                              const double* d) __attribute__((always_inline)) {
+            quad<N> record[4];
+            quad<N>::records(a, b, c, d, record);
+            for (std::size_t l = 0; l < 4 && k + l < s.size; ++l)
+                record[l].store(reinterpret_cast<std::byte*>(&records[bodies[k + l].body]) + block);
         };
-        constexpr std::size_t block = sizeof(quad);
+        constexpr std::size_t block = sizeof(four);
         each(motion, 0, s.x + k, s.y + k, s.z + k, nothing);
         each(motion, block, s.vx + k, s.vy + k, s.vz + k, nothing);
         each(motion, 2 * block, s.wx + k, s.wy + k, s.wz + k, nothing);
         each(turning, 0, s.nw + k, s.nx + k, s.ny + k, s.nz + k);
         each(turning, block, s.lx + k, s.ly + k, s.lz + k, nothing);
-        const auto column = [&](std::size_t c, const double* x, const double* y, const double* z) {
-            transpose(x, y, z, nothing, [&](std::size_t l, const quad& v) { v.store(axes[l][c]); });
+        const auto column = [&](std::size_t c, const double* x, const double* y, const double* z)
+            __attribute__((always_inline)) {
+            quad<N> record[4];
+            quad<N>::records(x, y, z, nothing, record);
+            for (std::size_t l = 0; l < 4; ++l) record[l].store(axes[l][c]);
         };
         column(0, s.r00 + k, s.r10 + k, s.r20 + k);
         column(1, s.r01 + k, s.r11 + k, s.r21 + k);
