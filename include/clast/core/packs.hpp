@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <type_traits>
 
 #include <clast/core/lanes.hpp>
@@ -14,6 +13,24 @@ namespace clast {
 
 using lane2 = double __attribute__((vector_size(16)));
 using lane4 = double __attribute__((vector_size(32)));
+
+/// From and to memory of any alignment.
+[[gnu::always_inline]] inline void load_lane(lane2& v, const void* p) {
+    using anywhere = double __attribute__((vector_size(16), aligned(8), may_alias));
+    v = *static_cast<const anywhere*>(p);
+}
+[[gnu::always_inline]] inline void load_lane(lane4& v, const void* p) {
+    using anywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+    v = *static_cast<const anywhere*>(p);
+}
+[[gnu::always_inline]] inline void store_lane(void* p, const lane2& v) {
+    using anywhere = double __attribute__((vector_size(16), aligned(8), may_alias));
+    *static_cast<anywhere*>(p) = v;
+}
+[[gnu::always_inline]] inline void store_lane(void* p, const lane4& v) {
+    using anywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+    *static_cast<anywhere*>(p) = v;
+}
 
 /// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
 template <std::size_t N> class pack_columns {
@@ -43,12 +60,12 @@ template <std::size_t N> class pack_columns {
             v = __builtin_shufflevector(even_, odd_, C, C + 4, C + 2, C + 6);
         else
             v = __builtin_shufflevector(even_, odd_, C, C + 2);
-        std::memcpy(to, &v, sizeof v);
+        store_lane(to, v);
     }
     [[gnu::always_inline]] pack_columns(const lane& even, const lane& odd) : even_(even), odd_(odd) {}
     [[gnu::always_inline]] static lane2 load2(const std::byte* p) {
         lane2 v;
-        std::memcpy(&v, p, sizeof v);
+        load_lane(v, p);
         return v;
     }
     [[gnu::always_inline]] static lane4 join(const lane2& a, const lane2& b) {
@@ -96,10 +113,13 @@ template <std::size_t N> class quad {
     /// From and to 32 bytes of any alignment.
     [[gnu::always_inline]] static quad load(const void* from) {
         quad q;
-        std::memcpy(q.part_, from, sizeof q.part_);
+        for (std::size_t k = 0; k < parts; ++k)
+            load_lane(q.part_[k], static_cast<const std::byte*>(from) + k * sizeof(pack));
         return q;
     }
-    [[gnu::always_inline]] void store(void* to) const { std::memcpy(to, part_, sizeof part_); }
+    [[gnu::always_inline]] void store(void* to) const {
+        for (std::size_t k = 0; k < parts; ++k) store_lane(static_cast<std::byte*>(to) + k * sizeof(pack), part_[k]);
+    }
     [[gnu::always_inline]] double operator[](std::size_t k) const { return part_[k / N][k % N]; }
 
     [[gnu::always_inline]] quad& operator+=(const quad& b) {
