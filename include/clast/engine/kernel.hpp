@@ -116,6 +116,15 @@ template <std::size_t N, class Law, class View>
     }
 }
 
+/// Asks for the second pebbles of 8 pairs (the first ones follow each other in memory, which processors see).
+template <class View> [[gnu::always_inline]] inline void prefetch(const pebble_pair* pairs, const View& from) {
+    for (std::size_t k = 0; k < lanes; ++k) {
+        const auto* const p = reinterpret_cast<const std::byte*>(&from.pebbles[pairs[k].j]);
+        __builtin_prefetch(p);
+        if constexpr (sizeof(from.pebbles[0]) > 64) __builtin_prefetch(p + 64);
+    }
+}
+
 /// Lane k of a strip. A function of its own: what a loop body declares itself, `omp simd` copies into arrays, and GCC
 /// then gives up.
 template <class Law, class View>
@@ -183,6 +192,10 @@ template <class Law, class View, class Job>
     using history = typename Law::history;
     constexpr bool remembers = contact_list<history>::remembers;
     const pebble_pair* const all_pairs = list.pairs.data();
+    // pebbles of long lists are fetched this many contacts before they are gathered; short ones stay in the second
+    // cache
+    constexpr std::size_t far = 16, longest_short = 1 << 16;
+    const std::size_t fetched = list.pairs.size() > longest_short ? list.pairs.size() : 0;
     history* const all_histories = list.history.data();
     return with_widest_registers([=](auto width) __attribute__((always_inline)) {
         constexpr std::size_t ahead = 2, behind = 1; // blocks; measured
@@ -204,6 +217,7 @@ template <class Law, class View, class Job>
                     for (std::size_t k = 0; k < lanes; ++k) pairs_of_last[k] = pairs[std::min(k, next.size - 1)];
                     pairs = pairs_of_last;
                 }
+                if (next.row + far + lanes <= fetched) detail::prefetch(all_pairs + next.row + far, from);
                 detail::gather<width()>(s, next.at, pairs, from);
                 work.adjust(s, next);
             }
