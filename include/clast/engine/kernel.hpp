@@ -177,6 +177,10 @@ template <class Law, class View>
 }
 } // namespace detail
 
+/// Whether a list has so many contacts that their pebbles should be fetched from memory before they are gathered; those
+/// of others stay in the second cache.
+inline bool is_long_list(const pair_list& list) { return list.size() > 1 << 16; }
+
 /// Evaluates some contacts of a list with the histories that it holds, which go on. h: span since their last evaluation
 /// (s). Pairs that do not touch exert nothing, whatever the law says; what it makes of their history and energy holds.
 ///
@@ -192,10 +196,8 @@ template <class Law, class View, class Job>
     using history = typename Law::history;
     constexpr bool remembers = contact_list<history>::remembers;
     const pebble_pair* const all_pairs = list.pairs.data();
-    // pebbles of long lists are fetched this many contacts before they are gathered; short ones stay in the second
-    // cache
-    constexpr std::size_t far = 16, longest_short = 1 << 16;
-    const std::size_t fetched = list.pairs.size() > longest_short ? list.pairs.size() : 0;
+    constexpr std::size_t far = 16; // contacts
+    const std::size_t fetched = is_long_list(list) ? list.size() : 0;
     history* const all_histories = list.history.data();
     return with_widest_registers([=](auto width) __attribute__((always_inline)) {
         constexpr std::size_t ahead = 2, behind = 1; // blocks; measured
