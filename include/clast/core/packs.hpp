@@ -14,21 +14,21 @@ namespace clast {
 using lane2 = double __attribute__((vector_size(16)));
 using lane4 = double __attribute__((vector_size(32)));
 
-/// From and to memory of any alignment.
+/// From and to memory of any alignment. (A typedef, because Clang does not let `using` lower an alignment.)
 [[gnu::always_inline]] inline void load_lane(lane2& v, const void* p) {
-    using anywhere = double __attribute__((vector_size(16), aligned(8), may_alias));
+    typedef double anywhere __attribute__((vector_size(16), aligned(8), may_alias));
     v = *static_cast<const anywhere*>(p);
 }
 [[gnu::always_inline]] inline void load_lane(lane4& v, const void* p) {
-    using anywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef double anywhere __attribute__((vector_size(32), aligned(8), may_alias));
     v = *static_cast<const anywhere*>(p);
 }
 [[gnu::always_inline]] inline void store_lane(void* p, const lane2& v) {
-    using anywhere = double __attribute__((vector_size(16), aligned(8), may_alias));
+    typedef double anywhere __attribute__((vector_size(16), aligned(8), may_alias));
     *static_cast<anywhere*>(p) = v;
 }
 [[gnu::always_inline]] inline void store_lane(void* p, const lane4& v) {
-    using anywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef double anywhere __attribute__((vector_size(32), aligned(8), may_alias));
     *static_cast<anywhere*>(p) = v;
 }
 
