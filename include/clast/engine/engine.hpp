@@ -447,7 +447,7 @@ template <triaxial_policies P> class engine {
         const pebble_pair* const pairs = owner.slow_.pairs.data();
 
         [[gnu::always_inline]] void adjust(strip_type& s, const contact_block& block) {
-            if (is_long_list(owner.slow_)) // what take() will add to
+            if (!shared && is_long_list(owner.slow_)) // what take() will add to
                 for (std::size_t k = 0; k < block.size; ++k)
                     __builtin_prefetch(&acting[owner.grains.body_of(pairs[block.row + k].j)], 1);
             if constexpr (periodic)

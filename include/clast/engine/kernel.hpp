@@ -225,12 +225,12 @@ template <class Law, class View, class Job>
             }
             if (b >= ahead && b < blocks + ahead) {
                 const contact_block now = block(b - ahead);
-                const bool in_list = remembers && now.size == lanes;
+                const bool partial = remembers && now.size < lanes;
                 history* const own = remembers ? all_histories + now.row : past;
-                if (remembers && !in_list)
+                if (partial)
                     for (std::size_t k = 0; k < lanes; ++k) past[k] = own[std::min(k, now.size - 1)];
-                detail::answer(s, now.at, in_list ? own : past, law, h);
-                if (remembers && !in_list)
+                detail::answer(s, now.at, partial ? past : own, law, h);
+                if (partial)
                     for (std::size_t k = 0; k < now.size; ++k) own[k] = past[k];
             }
             if (b >= ahead + behind) work.take(width, s, block(b - ahead - behind));
