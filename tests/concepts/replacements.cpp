@@ -24,7 +24,7 @@ struct archetype {
     bonds::parallel bond;
     float trigger = 0.5F;     // converts to double
     short check_interval = 1; // converts to int
-    std::vector<bonds::state> born(const bonds::lattice& lattice, std::span<const bonds::pebble_load>, quaternion,
+    std::vector<bonds::state> born(const bonds::lattice& lattice, const std::vector<bonds::pebble_load>&, quaternion,
                                    vec3) const {
         return std::vector<bonds::state>(lattice.ends.size());
     }

@@ -25,7 +25,7 @@ pair_result control_pair(double ra, double rb, double va, double vb) {
     std::vector<std::uint8_t> latch{0};
     gap_events events;
     REQUIRE(latch_gaps(two, {}, r, latch) == 1);
-    control_gaps(std::span(&two, 1), {}, r, v, latch, false, events);
+    control_gaps({two}, {}, r, v, latch, false, events);
     return {v[0], v[1], events};
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("a closed chain also guards the pair of its last and first wall", "[co
     gap_events events;
     CHECK(latch_gaps(ring, {}, r, latch) == 1);
     CHECK(latch[3] == 1);
-    control_gaps(std::span(&ring, 1), {}, r, v, latch, false, events);
+    control_gaps({ring}, {}, r, v, latch, false, events);
     CHECK(v[0] == 0.0);
     CHECK(v[3] == 0.0);
 }

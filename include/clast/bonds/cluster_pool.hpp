@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -72,7 +71,7 @@ class cluster_pool {
     std::size_t bonds() const { return shape_.ends.size(); }
 
     /// Adds a cluster with the given bond states and the strength of its bonds over the material's; returns its number.
-    std::size_t add(std::span<const state> born, double strength = 1.0) {
+    std::size_t add(const std::vector<state>& born, double strength = 1.0) {
         if (size_ % lanes == 0) {
             values_.resize(values_.size() + bonds() * fields * lanes, 0.0);
             intact_.resize(intact_.size() + lanes, 0);
@@ -131,8 +130,8 @@ class cluster_pool {
     /// of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of 1 us strains its
     /// bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes, are left alone. Returns
     /// the energy taken out by damping per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
-    std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
-                                      std::span<const pebble_load> load, std::span<vec3> displacement,
+    std::array<double, lanes> advance(std::size_t batch, double dt, std::vector<ball_motion>& balls,
+                                      const std::vector<pebble_load>& load, std::vector<vec3>& displacement,
                                       std::vector<break_report>& broken) {
         const std::size_t n = shape_.size();
         std::array<double, lanes> dissipated{};
@@ -296,7 +295,7 @@ class cluster_pool {
     }
 
     /// Stretches the bonds `left` of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
-    bool gather(std::size_t batch, std::span<const std::size_t> left, double h, const double* v, const double* w,
+    bool gather(std::size_t batch, const std::vector<std::size_t>& left, double h, const double* v, const double* w,
                 double* f, double* t, const double* axis) {
         const std::size_t n = shape_.size();
         std::fill(f, f + n * 3 * lanes, 0.0);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -117,7 +116,7 @@ struct lattice {
     /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes)
     /// while it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with
     /// minimum norm. `spin` is the angular velocity (rad/s).
-    std::vector<state> statics(std::span<const pebble_load> load, const quaternion& q, const vec3& spin) const {
+    std::vector<state> statics(const std::vector<pebble_load>& load, const quaternion& q, const vec3& spin) const {
         const std::size_t n = size();
         // rigid motion under the loads
         vec3 force, moment;

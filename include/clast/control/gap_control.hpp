@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 namespace clast::control {
 
@@ -55,8 +55,8 @@ inline double opening_rate(double ra, double rb, double va, double vb) { return 
 } // namespace detail
 
 /// Latches the pairs whose step reached the limit, releases those well below it; returns the number of latched pairs.
-inline int latch_gaps(const chain& c, const gap_rule& rule, std::span<const double> apothem,
-                      std::span<std::uint8_t> latch) {
+inline int latch_gaps(const chain& c, const gap_rule& rule, const std::vector<double>& apothem,
+                      std::vector<std::uint8_t>& latch) {
     int latched = 0;
     for (int j = 0; j < c.pairs(); ++j) {
         const auto [a, b, l] = detail::pair_of(c, j);
@@ -73,8 +73,8 @@ inline int latch_gaps(const chain& c, const gap_rule& rule, std::span<const doub
 /// One pass over the latched pairs of a chain that would open further; returns whether a velocity was altered.
 /// Same direction: the wall whose motion opens the step gets `closing` times the other's velocity, so that the step
 /// closes. Otherwise both stop. Velocities only ever shrink.
-inline bool sweep_gaps(const chain& c, const gap_rule& rule, std::span<const double> apothem,
-                       std::span<double> velocity, std::span<const std::uint8_t> latch, bool backward,
+inline bool sweep_gaps(const chain& c, const gap_rule& rule, const std::vector<double>& apothem,
+                       std::vector<double>& velocity, const std::vector<std::uint8_t>& latch, bool backward,
                        gap_events& events) {
     bool changed = false;
     const int pairs = c.pairs();
@@ -104,8 +104,8 @@ inline bool sweep_gaps(const chain& c, const gap_rule& rule, std::span<const dou
 /// (inward, m/s) so that no latched pair opens, by sweeps that only reduce speeds; call `latch_gaps` on each chain
 /// first. Alternate `backward` from step to step, so that no end of the chain is favoured. Returns the sweeps used;
 /// sweeps that do not settle within the number of walls end by stopping the pairs that still open.
-inline int control_gaps(std::span<const chain> chains, const gap_rule& rule, std::span<const double> apothem,
-                        std::span<double> velocity, std::span<const std::uint8_t> latch, bool backward,
+inline int control_gaps(const std::vector<chain>& chains, const gap_rule& rule, const std::vector<double>& apothem,
+                        std::vector<double>& velocity, const std::vector<std::uint8_t>& latch, bool backward,
                         gap_events& events) {
     int longest = 0;
     for (const chain& c : chains) longest = longest < c.count ? c.count : longest;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <clast/core/parallel.hpp>
@@ -36,7 +35,7 @@ class body_ranges {
 
     /// Cuts bodies 0 to n - 1 into so many ranges (>= 1) that have about equally many pairs. A pair counts for both of
     /// its bodies, so that those between two ranges count half for either. body_of(pebble): its body.
-    template <class F> void cut(std::size_t n, std::span<const pebble_pair> pairs, std::size_t count, F&& body_of) {
+    template <class F> void cut(std::size_t n, const std::vector<pebble_pair>& pairs, std::size_t count, F&& body_of) {
         std::vector<std::uint32_t> pairs_of(n, 0);
         for (const pebble_pair& p : pairs) ++pairs_of[body_of(p.i)], ++pairs_of[body_of(p.j)];
         ranges_.resize(count);

@@ -76,7 +76,7 @@ struct pebble_pair {
 
 /// Position of a pair among pairs that are sorted by before(a, b), or their number if it is not there.
 template <class Order>
-std::size_t find_pair(std::span<const pebble_pair> sorted, const pebble_pair& p, Order&& before) {
+std::size_t find_pair(const std::vector<pebble_pair>& sorted, const pebble_pair& p, Order&& before) {
     const auto it = std::lower_bound(sorted.begin(), sorted.end(), p, before);
     return static_cast<std::size_t>((it != sorted.end() && *it == p ? it : sorted.end()) - sorted.begin());
 }
@@ -109,7 +109,7 @@ struct pair_list {
         while (a < shared || b < size()) f(b == size() || (a < shared && before(pairs[a], pairs[b])) ? a++ : b++);
     }
     /// The pair that shall stand at k stands at order[k].
-    void reorder(std::span<const std::uint32_t> order) {
+    void reorder(const std::vector<std::uint32_t>& order) {
         permute(pairs, order);
         if (!image.empty()) permute(image, order);
     }
@@ -124,7 +124,7 @@ struct pair_list {
     template <class A> void archive(A& a) { a(pairs, image); }
 
   protected:
-    template <class T> static void permute(std::vector<T>& v, std::span<const std::uint32_t> order) {
+    template <class T> static void permute(std::vector<T>& v, const std::vector<std::uint32_t>& order) {
         const std::vector<T> old = v;
         for (std::size_t k = 0; k < order.size(); ++k) v[k] = old[order[k]];
     }
@@ -185,7 +185,7 @@ template <class History> struct contact_list : pair_list {
         }
     }
     /// The contact that shall stand at k stands at order[k].
-    void reorder(std::span<const std::uint32_t> order) {
+    void reorder(const std::vector<std::uint32_t>& order) {
         pair_list::reorder(order);
         if (!rows.empty()) permute(rows, order);
         if constexpr (remembers) permute(history, order);

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include <clast/core/parallel.hpp>
@@ -60,7 +59,7 @@ template <specimen_type S, bool Periodic> class pebble_pairs {
         pair_list fast; ///< with a ball
     };
     /// near: pairs of spheres whose gap is less than the margin, sorted.
-    lists of(const search_spheres& spheres, std::span<const searches::sphere_pair> near) const {
+    lists of(const search_spheres& spheres, const std::vector<searches::sphere_pair>& near) const {
         constexpr std::size_t chunk = 256;
         const std::size_t chunks = (near.size() + chunk - 1) / chunk, real = spheres.real();
         found_pairs found(chunks);

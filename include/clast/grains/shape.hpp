@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <clast/core/errors.hpp>
 #include <clast/core/symmetric.hpp>

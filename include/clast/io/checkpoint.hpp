@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <clast/io/archive.hpp>
 #include <clast/io/detail/atomic_file.hpp>
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <clast/core/errors.hpp>
 #include <clast/core/random.hpp>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <concepts>
-#include <span>
 #include <vector>
 
 #include <clast/bonds/lattice.hpp>
@@ -24,7 +23,7 @@ concept bonding = requires {
     { R::makes_bonds } -> std::convertible_to<bool>;
 }
 &&R::makes_bonds&& std::copyable<R>&& requires(const R r, const bonds::lattice& lattice,
-                                               std::span<const bonds::pebble_load> load, quaternion q, vec3 w) {
+                                               const std::vector<bonds::pebble_load>& load, quaternion q, vec3 w) {
     { r.bond } -> std::convertible_to<bonds::parallel>;
     { r.trigger } -> std::convertible_to<double>;
     { r.check_interval } -> std::convertible_to<int>;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <clast/bonds/lattice.hpp>
@@ -29,7 +28,7 @@ struct modified {
     birth how = birth::warm_start;
 
     /// Bond states (world axes) for a cluster under these loads on its pebbles, with orientation q and spin w (rad/s).
-    std::vector<bonds::state> born(const bonds::lattice& lattice, std::span<const bonds::pebble_load> load,
+    std::vector<bonds::state> born(const bonds::lattice& lattice, const std::vector<bonds::pebble_load>& load,
                                    const quaternion& q, const vec3& w) const {
         if (how == birth::zero_force) return std::vector<bonds::state>(lattice.ends.size());
         return lattice.statics(load, q, w);

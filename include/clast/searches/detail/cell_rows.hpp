@@ -33,7 +33,7 @@ inline constexpr std::size_t usual_pairs = 6;
 class cell_rows {
   public:
     /// Takes the `members` of `spheres`. `margin` as in the search: cells suit it (m).
-    cell_rows(std::span<const sphere> spheres, std::span<const std::int32_t> members, double margin);
+    cell_rows(std::span<const sphere> spheres, const std::vector<std::int32_t>& members, double margin);
 
     std::vector<double> x, y, z, radius; ///< by cell, and a block that stands for nothing (m)
     std::vector<std::int32_t> index;     ///< by cell: which of the spheres it is
@@ -60,10 +60,10 @@ class cell_rows {
     double cost(double reach) const;
 
   private:
-    void measure(std::span<const sphere> spheres, std::span<const std::int32_t> members);
-    void choose_cells(std::span<const sphere> spheres, std::span<const std::int32_t> members, double margin);
-    void leave_out_far_ones(std::span<const sphere> spheres, std::span<const std::int32_t> members);
-    void sort(std::span<const sphere> spheres, std::span<const std::int32_t> members);
+    void measure(std::span<const sphere> spheres, const std::vector<std::int32_t>& members);
+    void choose_cells(std::span<const sphere> spheres, const std::vector<std::int32_t>& members, double margin);
+    void leave_out_far_ones(std::span<const sphere> spheres, const std::vector<std::int32_t>& members);
+    void sort(std::span<const sphere> spheres, const std::vector<std::int32_t>& members);
 
     vec3 low_, high_;                    ///< box of the centres (m)
     vec3 per_metre_;                     ///< 1 / edge of a cell
@@ -72,7 +72,7 @@ class cell_rows {
     std::vector<std::uint32_t> start_;   ///< by cell: place of its first sphere
 };
 
-inline cell_rows::cell_rows(std::span<const sphere> spheres, std::span<const std::int32_t> members, double margin)
+inline cell_rows::cell_rows(std::span<const sphere> spheres, const std::vector<std::int32_t>& members, double margin)
     : x(members.size() + block), y(members.size() + block), z(members.size() + block), radius(members.size() + block),
       index(members.size()) {
     measure(spheres, members);
@@ -80,7 +80,7 @@ inline cell_rows::cell_rows(std::span<const sphere> spheres, std::span<const std
     sort(spheres, members);
 }
 
-inline void cell_rows::measure(std::span<const sphere> spheres, std::span<const std::int32_t> members) {
+inline void cell_rows::measure(std::span<const sphere> spheres, const std::vector<std::int32_t>& members) {
     constexpr double most = std::numeric_limits<double>::max();
     low_ = {most, most, most}, high_ = -low_;
     for (const std::int32_t m : members) {
@@ -93,7 +93,7 @@ inline void cell_rows::measure(std::span<const sphere> spheres, std::span<const 
 }
 
 /// Sets the box to where nearly all spheres are, so that a few that flew away do not make the cells of all others wide.
-inline void cell_rows::leave_out_far_ones(std::span<const sphere> spheres, std::span<const std::int32_t> members) {
+inline void cell_rows::leave_out_far_ones(std::span<const sphere> spheres, const std::vector<std::int32_t>& members) {
     const std::size_t step = members.size() / 1024 + 1;
     for (int a = 0; a < 3; ++a) {
         std::vector<double> sample;
@@ -109,7 +109,7 @@ inline void cell_rows::leave_out_far_ones(std::span<const sphere> spheres, std::
     }
 }
 
-inline void cell_rows::choose_cells(std::span<const sphere> spheres, std::span<const std::int32_t> members,
+inline void cell_rows::choose_cells(std::span<const sphere> spheres, const std::vector<std::int32_t>& members,
                                     double margin) {
     // In parts of the largest reach. Measured on dense packings: narrow along x, where cells cost nothing but memory;
     // across wider than the reach, so that a block of a row is filled with few rows to visit.
@@ -128,7 +128,7 @@ inline void cell_rows::choose_cells(std::span<const sphere> spheres, std::span<c
 }
 
 /// Counting sort.
-inline void cell_rows::sort(std::span<const sphere> spheres, std::span<const std::int32_t> members) {
+inline void cell_rows::sort(std::span<const sphere> spheres, const std::vector<std::int32_t>& members) {
     start_.assign(count_[0] * count_[1] * count_[2] + 1, 0);
     std::vector<std::uint32_t> cell_of(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
