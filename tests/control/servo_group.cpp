@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -83,4 +84,39 @@ TEST_CASE("walls alone take their own step, walls that were not set none, and a 
     group.couple(0, 0, -3.0);
     group.solve();
     CHECK(group.displacement(0) == Approx(0.25).epsilon(1e-12));
+}
+
+TEST_CASE("walls that do not hang together do not see each other") {
+    struct link {
+        std::size_t a, b;
+        double stiffness;
+    };
+    const std::vector<link> links{{9, 0, -4e6}, {2, 7, -3e5}, {0, 5, -7e6}, {5, 9, -1e6}, {3, 4, -2e6}};
+    const std::vector<std::vector<std::size_t>> blocks{{0, 5, 9}, {2, 7}, {1}, {6}, {8}}; // 3 is not set, so 4 is alone
+    const auto missing = [](std::size_t wall) { return 10.0 - 3.0 * static_cast<double>(wall); };
+    const auto stiffness = [](std::size_t wall) { return 1.3e7 + 1e5 * static_cast<double>(wall); };
+    control::servo_group all;
+    all.reset(10);
+    for (std::size_t i = 0; i < 10; ++i)
+        if (i != 3) all.set(i, missing(i), stiffness(i));
+    for (const link& l : links) all.couple(l.a, l.b, l.stiffness);
+    all.solve();
+    CHECK(all.displacement(3) == 0.0);
+    CHECK(all.displacement(4) == missing(4) / stiffness(4));
+    for (const std::vector<std::size_t>& block : blocks) {
+        control::servo_group one;
+        one.reset(10);
+        for (const std::size_t i : block) one.set(i, missing(i), stiffness(i));
+        for (const link& l : links) one.couple(l.a, l.b, l.stiffness);
+        one.solve();
+        for (const std::size_t i : block) CHECK(all.displacement(i) == one.displacement(i)); // to the last bit
+    }
+    // and rows of the first block hold: K x = e
+    const auto force = [&](std::size_t wall) {
+        double sum = stiffness(wall) * all.displacement(wall);
+        for (const link& l : links)
+            if (l.a == wall || l.b == wall) sum += l.stiffness * all.displacement(l.a == wall ? l.b : l.a);
+        return sum;
+    };
+    for (const std::size_t wall : {0u, 5u, 9u, 2u, 7u}) CHECK(force(wall) == Approx(missing(wall)).margin(1e-5));
 }

@@ -62,15 +62,16 @@ inline constexpr std::size_t lanes = 8;
 /// A number of items, rounded up to whole lanes.
 constexpr std::size_t whole_lanes(std::size_t items) { return (items + lanes - 1) / lanes * lanes; }
 
+namespace detail { // typedefs, because Clang does not let `using` lower an alignment
+typedef double lane8_anywhere __attribute__((vector_size(64), aligned(8), may_alias));
+} // namespace detail
 /// From and to memory of any alignment. (GCC copies by memcpy in pieces of the registers that the program is built for,
 /// also where it may use wider ones, and then waits for the pieces: three times the time of a step with AVX2.)
 [[gnu::always_inline]] inline lane8 load8(const double* p) {
-    typedef double anywhere __attribute__((vector_size(64), aligned(8), may_alias));
-    return *reinterpret_cast<const anywhere*>(p);
+    return *reinterpret_cast<const detail::lane8_anywhere*>(p);
 }
 [[gnu::always_inline]] inline void store8(double* p, const lane8& v) {
-    typedef double anywhere __attribute__((vector_size(64), aligned(8), may_alias));
-    *reinterpret_cast<anywhere*>(p) = v;
+    *reinterpret_cast<detail::lane8_anywhere*>(p) = v;
 }
 /// Whether eight numbers in memory are all 0 (and not -0).
 inline bool all_zero8(const double* p) {

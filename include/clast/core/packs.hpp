@@ -14,23 +14,19 @@ namespace clast {
 using lane2 = double __attribute__((vector_size(16)));
 using lane4 = double __attribute__((vector_size(32)));
 
-/// From and to memory of any alignment. (A typedef, because Clang does not let `using` lower an alignment.)
+namespace detail {
+typedef double lane2_anywhere __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double lane4_anywhere __attribute__((vector_size(32), aligned(8), may_alias));
+} // namespace detail
+/// From and to memory of any alignment.
 [[gnu::always_inline]] inline void load_lane(lane2& v, const void* p) {
-    typedef double anywhere __attribute__((vector_size(16), aligned(8), may_alias));
-    v = *static_cast<const anywhere*>(p);
+    v = *static_cast<const detail::lane2_anywhere*>(p);
 }
 [[gnu::always_inline]] inline void load_lane(lane4& v, const void* p) {
-    typedef double anywhere __attribute__((vector_size(32), aligned(8), may_alias));
-    v = *static_cast<const anywhere*>(p);
+    v = *static_cast<const detail::lane4_anywhere*>(p);
 }
-[[gnu::always_inline]] inline void store_lane(void* p, const lane2& v) {
-    typedef double anywhere __attribute__((vector_size(16), aligned(8), may_alias));
-    *static_cast<anywhere*>(p) = v;
-}
-[[gnu::always_inline]] inline void store_lane(void* p, const lane4& v) {
-    typedef double anywhere __attribute__((vector_size(32), aligned(8), may_alias));
-    *static_cast<anywhere*>(p) = v;
-}
+[[gnu::always_inline]] inline void store_lane(void* p, const lane2& v) { *static_cast<detail::lane2_anywhere*>(p) = v; }
+[[gnu::always_inline]] inline void store_lane(void* p, const lane4& v) { *static_cast<detail::lane4_anywhere*>(p) = v; }
 
 /// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
 template <std::size_t N> class pack_columns {
