@@ -17,7 +17,7 @@ namespace clast::control {
 /// its load (overrated). Together they move at once with the pebble and slowly against each other.
 /// K is symmetric and positive definite, and falls into blocks of walls that hang together, mostly two or three tiles.
 /// Conjugate gradients with the diagonal as preconditioner solve each of them to 1e-6 of its first residual or in 60
-/// passes, whatever comes first: a block of n walls needs n passes. Walls that were not set keep displacement 0.
+/// passes, whatever comes first: a block of n walls needs about n passes. Walls that were not set keep displacement 0.
 class servo_group {
   public:
     /// n walls, none set, none coupled.

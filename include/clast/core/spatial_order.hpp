@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <clast/core/vector.hpp>
@@ -17,7 +18,7 @@ namespace clast {
 /// Numbers of the points along a Z-order curve through cells of the given edge (m, > 0; about a grain diameter is a
 /// good choice): add grains in this order, and a step reads memory that is at hand. The order is kept for the life of a
 /// specimen; in a triaxial test neighbours stay neighbours. Points in one cell keep their order. Morton 1966.
-inline std::vector<std::size_t> spatial_order(const std::vector<vec3>& points, double edge) {
+inline std::vector<std::size_t> spatial_order(std::span<const vec3> points, double edge) {
     vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
              std::numeric_limits<double>::infinity()};
     for (const vec3& p : points)
