@@ -78,7 +78,11 @@ clast_missing() {
             clast_has_header catch2/catch_all.hpp catch2/catch.hpp || echo "catch2|needed|Catch2, tests"
             clast_has_header Eigen/Core eigen3/Eigen/Core || echo "libeigen3-dev|needed|Eigen, to compare with in tests"
             ;;
-        benchmark) clast_has_header benchmark/benchmark.h || echo "libbenchmark-dev|needed|Google Benchmark, kernels" ;;
+        esac
+        case $group in
+        test | benchmark)
+            clast_has_header benchmark/benchmark.h || echo "libbenchmark-dev|needed|Google Benchmark, kernels"
+            ;;
         esac
     done
 }

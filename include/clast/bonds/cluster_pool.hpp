@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -130,8 +131,8 @@ class cluster_pool {
     /// of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of 1 us strains its
     /// bonds by 100 N, with these by 0.01 N. Clusters without intact bonds, and empty lanes, are left alone. Returns
     /// the energy taken out by damping per lane; broken bonds are appended to `broken`, ordered by step, bond and lane.
-    std::array<double, lanes> advance(std::size_t batch, double dt, std::vector<ball_motion>& balls,
-                                      const std::vector<pebble_load>& load, std::vector<vec3>& displacement,
+    std::array<double, lanes> advance(std::size_t batch, double dt, std::span<ball_motion> balls,
+                                      std::span<const pebble_load> load, std::span<vec3> displacement,
                                       std::vector<break_report>& broken) {
         const std::size_t n = shape_.size();
         std::array<double, lanes> dissipated{};
