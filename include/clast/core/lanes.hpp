@@ -25,10 +25,15 @@
 
 namespace clast {
 
-/// How many doubles code handles at once that works by registers (core/packs.hpp): 4, or 2 where they hold no more.
-template <std::size_t N> using register_width = std::integral_constant<std::size_t, N>;
+/// How many doubles code handles at once that works by registers (core/packs.hpp): 4, or 2 where they hold no more; and
+/// how many the registers of a vectorised loop hold: up to 8.
+template <std::size_t N, std::size_t Loop = N> struct register_width : std::integral_constant<std::size_t, N> {
+    static constexpr std::size_t of_loops = Loop;
+};
 /// The width of the registers that the program is built for.
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+using own_width = register_width<4, 8>;
+#elif defined(__AVX__)
 using own_width = register_width<4>;
 #else
 using own_width = register_width<2>;
@@ -37,7 +42,7 @@ using own_width = register_width<2>;
 #if defined(CLAST_WIDER_AT_RUN_TIME)
 namespace detail {
 template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx512f,avx512vl,avx512dq")]] auto run_by_eights(F f) {
-    return f(register_width<4>{});
+    return f(register_width<4, 8>{});
 }
 template <class F> [[gnu::noinline, gnu::flatten, gnu::target("avx2")]] auto run_by_fours(F f) {
     return f(register_width<4>{});

@@ -40,11 +40,15 @@ template <contacts::contact_law Law, class View> struct strip {
     row radius_i, radius_j;           ///< m
     arm_row aix, aiy, aiz;            ///< from the centre of the body to x_i (m)
     arm_row ajx, ajy, ajz;            ///< and to x_j
-    row fx, fy, fz;                   ///< force on i (N)
+    alignas(64) row fx, fy, fz;       ///< force on i (N)
     row nx, ny, nz;                   ///< normal from i to j
     row tix, tiy, tiz, tjx, tjy, tjz; ///< moments on the bodies of i and j about their centres (N m)
     row depth;                        ///< overlap (m), >= 0
     row dissipated;                   ///< J
+    /// Whether a pair touches: written where registers hold 4 doubles only. A vectorised loop does as many lanes at
+    /// once as numbers of its smallest type fit in a register, here 8 in two registers each, and while one waits for a
+    /// root or a quotient the other goes on.
+    std::int32_t touching[length];
 };
 
 /// Up to 8 contacts: row, row + 1, ... of a list, in the lanes at, at + 1, ... of a strip.
@@ -126,16 +130,15 @@ template <class View> [[gnu::always_inline]] inline void prefetch(const pebble_p
 }
 
 /// Lane k of a strip. A function of its own: what a loop body declares itself, `omp simd` copies into arrays, and GCC
-/// then gives up.
-template <class Law, class View>
+/// then gives up. Operands are read late, so that few registers hold them.
+template <bool InPairs, class Law, class View>
 [[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, View>& s, std::size_t k,
                                                         typename Law::history& history, const Law& law, double h) {
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]};
     vec3 centres{s.vx[k], s.vy[k], s.vz[k]}; // of the pebbles, relative velocity
-    const vec3 spin_i{s.ix[k], s.iy[k], s.iz[k]}, spin_j{s.jx[k], s.jy[k], s.jz[k]};
     if constexpr (strip<Law, View>::has_arms) {
-        centres += cross(spin_j, vec3{s.ajx[k], s.ajy[k], s.ajz[k]});
-        centres -= cross(spin_i, vec3{s.aix[k], s.aiy[k], s.aiz[k]});
+        centres += cross(vec3{s.jx[k], s.jy[k], s.jz[k]}, vec3{s.ajx[k], s.ajy[k], s.ajz[k]});
+        centres -= cross(vec3{s.ix[k], s.iy[k], s.iz[k]}, vec3{s.aix[k], s.aiy[k], s.aiz[k]});
     }
     const vec3 mid = d - (0.5 * h) * centres;
     const double distance = std::sqrt(norm2(d)), mid2 = norm2(mid);
@@ -143,6 +146,7 @@ template <class Law, class View>
     const double overlap = s.radius_i[k] + s.radius_j[k] - distance;
     const double reach_i = s.radius_i[k] - 0.5 * overlap, reach_j = s.radius_j[k] - 0.5 * overlap;
     const vec3 normal = inverse * d;
+    const vec3 spin_i{s.ix[k], s.iy[k], s.iz[k]}, spin_j{s.jx[k], s.jy[k], s.jz[k]};
     const vec3 relative = cross(reach_i * spin_i + reach_j * spin_j, normal) - centres;
     const vec3 u = h * (relative - (0.5 * reflect * dot(relative, mid)) * mid);
     const double spin = 0.5 * h * dot(spin_i + spin_j, normal);
@@ -165,15 +169,16 @@ template <class Law, class View>
     s.tjx[k] = moment_j.x, s.tjy[k] = moment_j.y, s.tjz[k] = moment_j.z;
     s.depth[k] = touching ? overlap : 0.0;
     s.dissipated[k] = answer.dissipated;
+    if constexpr (InPairs) s.touching[k] = touching ? 1 : 0;
 }
 
-template <class Law, class View>
+template <bool InPairs, class Law, class View>
 [[gnu::always_inline]] inline void answer(strip<Law, View>& s, std::size_t at, typename Law::history* history,
                                           const Law& law, double h) {
 #if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD) // the latter comes with clast::fast and its -fopenmp-simd
 #pragma omp simd
 #endif
-    for (std::size_t k = 0; k < lanes; ++k) detail::answer(s, at + k, history[k], law, h);
+    for (std::size_t k = 0; k < lanes; ++k) detail::answer<InPairs>(s, at + k, history[k], law, h);
 }
 } // namespace detail
 
@@ -202,6 +207,8 @@ template <class Law, class View, class Job>
     return with_widest_registers([=](auto width) __attribute__((always_inline)) {
         constexpr std::size_t ahead = 2, behind = 1; // blocks; measured
         static_assert(ahead + behind < strip<Law, View>::blocks);
+        // clumps need too many registers for that
+        constexpr bool in_pairs = width.of_loops == 4 && !strip<Law, View>::has_arms;
         Job work = job;
         strip<Law, View> s;
         pebble_pair pairs_of_last[lanes];
@@ -229,7 +236,7 @@ template <class Law, class View, class Job>
                 history* const own = remembers ? all_histories + now.row : past;
                 if (partial)
                     for (std::size_t k = 0; k < lanes; ++k) past[k] = own[std::min(k, now.size - 1)];
-                detail::answer(s, now.at, partial ? past : own, law, h);
+                detail::answer<in_pairs>(s, now.at, partial ? past : own, law, h);
                 if (partial)
                     for (std::size_t k = 0; k < now.size; ++k) own[k] = past[k];
             }
@@ -248,9 +255,9 @@ template <class Law, class View>
 }
 
 /// Calls f(row, contact_load) for every contact of a block, in order; f should be always_inline.
-template <std::size_t N, class Law, class View, class F>
-[[gnu::always_inline]] inline void each_load(register_width<N>, const strip<Law, View>& s, const contact_block& block,
-                                             const F& f) {
+template <std::size_t N, std::size_t Loop, class Law, class View, class F>
+[[gnu::always_inline]] inline void each_load(register_width<N, Loop>, const strip<Law, View>& s,
+                                             const contact_block& block, const F& f) {
     alignas(64) static constexpr double nothing[4] = {};
     for (std::size_t done = 0; done < block.size; done += 4) {
         const std::size_t k = block.at + done;

@@ -283,8 +283,8 @@ struct specimen {
     }
     /// Fills a strip whose size is set with bodies and where displacements count from; unused lanes repeat the last
     /// body.
-    template <std::size_t N>
-    [[gnu::always_inline]] void fill(register_width<N>, clump_strip& s, const moving_body* bodies,
+    template <std::size_t N, std::size_t Loop>
+    [[gnu::always_inline]] void fill(register_width<N, Loop>, clump_strip& s, const moving_body* bodies,
                                      const reference* since, const vec3& stretch) const {
         const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
         constexpr std::size_t block = sizeof(four);
@@ -313,9 +313,9 @@ struct specimen {
     /// Columns of the matrices of four orientations, with a spare number each.
     using axes_of_four = double[4][3][4];
     /// Takes the new state of up to four bodies from place k of a strip on.
-    template <std::size_t N>
-    [[gnu::always_inline]] void take(register_width<N>, const clump_strip& s, std::size_t k, const moving_body* bodies,
-                                     axes_of_four& axes) {
+    template <std::size_t N, std::size_t Loop>
+    [[gnu::always_inline]] void take(register_width<N, Loop>, const clump_strip& s, std::size_t k,
+                                     const moving_body* bodies, axes_of_four& axes) {
         static constexpr double nothing[4] = {};
         const auto each = [&](auto& records, std::size_t block, const double* a, const double* b, const double* c,
                               const double* d) __attribute__((always_inline)) {
