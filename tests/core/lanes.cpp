@@ -8,19 +8,21 @@
 
 using namespace clast;
 
-TEST_CASE("lanes: eight numbers at once give what one number gives, memory of any alignment included") {
+TEMPLATE_TEST_CASE("lanes: several numbers at once give what one number gives, memory of any alignment included", "",
+                   lane8, lane4) {
+    constexpr std::size_t width = sizeof(TestType) / sizeof(double);
     std::array<double, 19> memory{};
     const std::array<double, 8> a = {-2.0, -0.5, 0.0, 1e-300, 0.5, 1.0, 3.0, -1e9};
     const std::array<double, 8> b = {-3.0, 0.5, -0.0, 0.0, 0.5, 2.0, -3.0, 1e9};
     for (std::size_t shift = 0; shift < 3; ++shift) {
         for (std::size_t l = 0; l < lanes; ++l) memory[shift + l] = a[l];
-        const lane8 x = load8(memory.data() + shift), y = load8(b.data());
-        store8(memory.data() + 11, larger(x, y));
-        for (std::size_t l = 0; l < lanes; ++l) CHECK(memory[11 + l] == larger(a[l], b[l]));
-        store8(memory.data() + 11, magnitude(x));
-        for (std::size_t l = 0; l < lanes; ++l) CHECK(memory[11 + l] == magnitude(a[l]));
-        store8(memory.data() + 11, sign_of(x));
-        for (std::size_t l = 0; l < lanes; ++l) CHECK(memory[11 + l] == sign_of(a[l]));
+        const TestType x = load<TestType>(memory.data() + shift), y = load<TestType>(b.data());
+        store(memory.data() + 11, larger(x, y));
+        for (std::size_t l = 0; l < width; ++l) CHECK(memory[11 + l] == larger(a[l], b[l]));
+        store(memory.data() + 11, magnitude(x));
+        for (std::size_t l = 0; l < width; ++l) CHECK(memory[11 + l] == magnitude(a[l]));
+        store(memory.data() + 11, sign_of(x));
+        for (std::size_t l = 0; l < width; ++l) CHECK(memory[11 + l] == sign_of(a[l]));
     }
     CHECK(sign_of(0.0) == 0.0);
     CHECK(sign_of(-0.0) == 0.0);
@@ -29,7 +31,8 @@ TEST_CASE("lanes: eight numbers at once give what one number gives, memory of an
     CHECK(larger(-3.0, -2.0) == -2.0);
 }
 
-TEST_CASE("lanes: eight vectors at once give what one vector gives") {
+TEMPLATE_TEST_CASE("lanes: several vectors at once give what one vector gives", "", lane8, lane4) {
+    constexpr std::size_t width = sizeof(TestType) / sizeof(double);
     std::array<double, 24> a{}, b{}, out{};
     const auto at = [](const std::array<double, 24>& m, std::size_t l) {
         return vec3{m[l], m[lanes + l], m[2 * lanes + l]};
@@ -38,10 +41,10 @@ TEST_CASE("lanes: eight vectors at once give what one vector gives") {
         a[k] = 0.3 * static_cast<double>(k) - 2.0;
         b[k] = 1.0 / (static_cast<double>(k) + 1.0);
     }
-    const vec3x8 x = load3x8(a.data()), y = load3x8(b.data());
-    const auto same = [&](const vec3x8& v, auto&& one) {
-        store3x8(out.data(), v);
-        for (std::size_t l = 0; l < lanes; ++l) CHECK(norm(at(out, l) - one(at(a, l), at(b, l))) <= 1e-16);
+    const vec3_of<TestType> x = load3<TestType>(a.data()), y = load3<TestType>(b.data());
+    const auto same = [&](const vec3_of<TestType>& v, auto&& one) {
+        store3(out.data(), v);
+        for (std::size_t l = 0; l < width; ++l) CHECK(norm(at(out, l) - one(at(a, l), at(b, l))) <= 1e-16);
     };
     same(x + y, [](vec3 p, vec3 q) { return p + q; });
     same(x - y, [](vec3 p, vec3 q) { return p - q; });
@@ -49,7 +52,7 @@ TEST_CASE("lanes: eight vectors at once give what one vector gives") {
     same(dot(x, y) * y, [](vec3 p, vec3 q) { return dot(p, q) * q; });
     same(cross(x, y), [](vec3 p, vec3 q) { return cross(p, q); });
     same(norm2(x) * y, [](vec3 p, vec3 q) { return norm2(p) * q; });
-    vec3x8 sum = x;
+    vec3_of<TestType> sum = x;
     sum += y;
     same(sum, [](vec3 p, vec3 q) { return p + q; });
 }

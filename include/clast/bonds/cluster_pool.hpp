@@ -171,33 +171,25 @@ class cluster_pool {
         }
         std::vector<std::size_t> left; // bonds that a lane has left, in the end the fewest
         left.reserve(bonds());
-        for (std::size_t b = 0; b < bonds(); ++b) {
-            double* const s = values_.data() + base(batch, b);
-            if (all_zero8(s + alive * lanes)) continue;
-            left.push_back(b);
-            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
-            const vec3x8 d = load3x8(u + j) - load3x8(u + i);
-            const vec3x8 normal = ratio(lane8{} + 1.0, root(norm2(d))) * d; // zero in lanes without a cluster
-            state_x8 bond{{}, load3x8(s + shear * lanes), {}, load3x8(s + bending * lanes)};
-            turn(bond, normal, 0.5 * (load3x8(w + i) + load3x8(w + j)), dt);
-            store3x8(s + shear * lanes, bond.v);
-            store3x8(s + bending * lanes, bond.mb);
-            store3x8(axis + b * 3 * lanes, normal);
-        }
+        for (std::size_t b = 0; b < bonds(); ++b)
+            if (!all_zero8(values_.data() + base(batch, b) + alive * lanes)) left.push_back(b);
+        with_widest_registers([ =, this, &left ](auto width) __attribute__((always_inline)) {
+            turn_along<lanes_of<decltype(width)>>(batch, left, dt, w, u, axis);
+        });
         const int steps = substeps(dt);
         const double h = dt / steps;
         // half a drift at either end, so that a step of one sub-step is of second order, too
         for (std::size_t k = 0; k < vectors; ++k) u[k] = 0.5 * h * v[k];
         const auto stretch_bonds = [&](int step, double span) {
-            if (with_widest_registers([ =, this, &left ](auto) __attribute__((always_inline)) {
-                    return gather(batch, left, span, v, w, f, t, axis);
+            if (with_widest_registers([ =, this, &left ](auto width) __attribute__((always_inline)) {
+                    return gather<lanes_of<decltype(width)>>(batch, left, span, v, w, f, t, axis);
                 }))
                 collect(batch, step, axis, f, t, broken);
         };
         stretch_bonds(0, 0.5 * h);
         for (int step = 1; step <= steps; ++step) {
-            with_widest_registers([ =, this, &live, &dissipated ](auto) __attribute__((always_inline)) {
-                kick(h, v, w, fe, te, f, t, u, live, dissipated);
+            with_widest_registers([ =, this, &live, &dissipated ](auto width) __attribute__((always_inline)) {
+                kick<lanes_of<decltype(width)>>(h, v, w, fe, te, f, t, u, live, dissipated);
             });
             stretch_bonds(step, step < steps ? h : 0.5 * h);
         }
@@ -272,61 +264,89 @@ class cluster_pool {
         }
     }
 
+    /// Turns the bonds `left` of a batch with the balls by a step dt, whose mean positions are x; `axis` receives their
+    /// normals.
+    template <class L>
+    void turn_along(std::size_t batch, const std::vector<std::size_t>& left, double dt, const double* w,
+                    const double* x, double* axis) {
+        for (const std::size_t b : left)
+            for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+                double* const s = values_.data() + base(batch, b) + part;
+                const std::size_t i = end_a(b) * 3 * lanes + part, j = end_b(b) * 3 * lanes + part;
+                const vec3_of<L> d = load3<L>(x + j) - load3<L>(x + i);
+                const vec3_of<L> normal = ratio(L{} + 1.0, root(norm2(d))) * d; // zero in lanes without a cluster
+                state_of<L> bond{{}, load3<L>(s + shear * lanes), {}, load3<L>(s + bending * lanes)};
+                turn(bond, normal, 0.5 * (load3<L>(w + i) + load3<L>(w + j)), dt);
+                store3(s + shear * lanes, bond.v);
+                store3(s + bending * lanes, bond.mb);
+                store3(axis + b * 3 * lanes + part, normal);
+            }
+    }
+
     /// Kick of all balls of a batch by external and bond loads with local damping, then their drift.
+    template <class L>
     void kick(double h, double* v, double* w, const double* fe, const double* te, const double* f, const double* t,
               double* u, const std::array<double, lanes>& live, std::array<double, lanes>& dissipated) const {
         const std::size_t n = shape_.size();
-        const lane8 on = load8(live.data());
-        lane8 work{};
-        for (std::size_t i = 0; i < n; ++i) {
-            const double per_mass = h / shape_.mass[i], per_inertia = h / shape_.inertia[i];
-            for (std::size_t k = i * 3 * lanes; k < (i + 1) * 3 * lanes; k += lanes) {
-                const lane8 force = on * (load8(fe + k) + load8(f + k)), moment = on * (load8(te + k) + load8(t + k));
-                const lane8 v0 = load8(v + k), w0 = load8(w + k);
-                const lane8 fd = damping_ * magnitude(force) * sign_of(v0);
-                const lane8 td = damping_ * magnitude(moment) * sign_of(w0);
-                const lane8 v1 = v0 + per_mass * (force - fd), w1 = w0 + per_inertia * (moment - td);
-                work += fd * (v0 + v1) + td * (w0 + w1);
-                store8(v + k, v1);
-                store8(w + k, w1);
-                store8(u + k, load8(u + k) + h * v1);
+        for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+            const L on = load<L>(live.data() + part);
+            L work{};
+            for (std::size_t i = 0; i < n; ++i) {
+                const double per_mass = h / shape_.mass[i], per_inertia = h / shape_.inertia[i];
+                for (std::size_t k = i * 3 * lanes + part; k < (i + 1) * 3 * lanes; k += lanes) {
+                    const L force = on * (load<L>(fe + k) + load<L>(f + k));
+                    const L moment = on * (load<L>(te + k) + load<L>(t + k));
+                    const L v0 = load<L>(v + k), w0 = load<L>(w + k);
+                    const L fd = damping_ * magnitude(force) * sign_of(v0);
+                    const L td = damping_ * magnitude(moment) * sign_of(w0);
+                    const L v1 = v0 + per_mass * (force - fd), w1 = w0 + per_inertia * (moment - td);
+                    work += fd * (v0 + v1) + td * (w0 + w1);
+                    store(v + k, v1);
+                    store(w + k, w1);
+                    store<L>(u + k, load<L>(u + k) + h * v1);
+                }
             }
+            double* const sum = dissipated.data() + part;
+            store<L>(sum, load<L>(sum) + 0.5 * h * work);
         }
-        store8(dissipated.data(), load8(dissipated.data()) + 0.5 * h * work);
     }
 
     /// Stretches the bonds `left` of a batch by a step h and sums their loads per ball. True if a bond of a lane fails.
+    template <class L>
     bool gather(std::size_t batch, const std::vector<std::size_t>& left, double h, const double* v, const double* w,
                 double* f, double* t, const double* axis) {
         const std::size_t n = shape_.size();
         std::fill(f, f + n * 3 * lanes, 0.0);
         std::fill(t, t + n * 3 * lanes, 0.0);
-        lane8 worst = lane8{} - 1.0;
-        const lane8 strength = load8(strength_.data() + batch * lanes);
-        for (const std::size_t b : left) {
-            double* const s = values_.data() + base(batch, b);
-            const constants& c = shape_.bond[b];
-            const std::size_t i = end_a(b) * 3 * lanes, j = end_b(b) * 3 * lanes;
-            const double ra = shape_.arm[b].a, rb = shape_.arm[b].b;
-            const vec3x8 normal = load3x8(axis + b * 3 * lanes), wa = load3x8(w + i), wb = load3x8(w + j);
-            state_x8 bond{load8(s), load3x8(s + shear * lanes), load8(s + twist * lanes), load3x8(s + bending * lanes)};
-            const lane8 step = h * load8(s + alive * lanes);
-            stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3x8(v + i), wa, load3x8(v + j), wb), wb - wa,
-                    step);
-            store8(s, bond.n);
-            store3x8(s + shear * lanes, bond.v);
-            store8(s + twist * lanes, bond.mt);
-            store3x8(s + bending * lanes, bond.mb);
-            const auto margin = margins_of(c, bond, strength); // negative where no bond is left: its state is zero
-            worst = larger(worst, larger(margin.tension, margin.shear));
-            const auto wr = loads(bond, normal, ra, rb);
-            store3x8(f + i, load3x8(f + i) + wr.force_a);
-            store3x8(f + j, load3x8(f + j) - wr.force_a);
-            store3x8(t + i, load3x8(t + i) + wr.moment_a);
-            store3x8(t + j, load3x8(t + j) + wr.moment_b);
-        }
+        L worst = L{} - 1.0;
+        for (const std::size_t b : left)
+            for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+                const L strength = load<L>(strength_.data() + batch * lanes + part);
+                double* const s = values_.data() + base(batch, b) + part;
+                const constants& c = shape_.bond[b];
+                const std::size_t i = end_a(b) * 3 * lanes + part, j = end_b(b) * 3 * lanes + part;
+                const double ra = shape_.arm[b].a, rb = shape_.arm[b].b;
+                const vec3_of<L> normal = load3<L>(axis + b * 3 * lanes + part);
+                const vec3_of<L> wa = load3<L>(w + i), wb = load3<L>(w + j);
+                state_of<L> bond{load<L>(s), load3<L>(s + shear * lanes), load<L>(s + twist * lanes),
+                                 load3<L>(s + bending * lanes)};
+                const L step = h * load<L>(s + alive * lanes);
+                stretch(c, bond, normal, relative_velocity(normal, ra, rb, load3<L>(v + i), wa, load3<L>(v + j), wb),
+                        wb - wa, step);
+                store(s, bond.n);
+                store3(s + shear * lanes, bond.v);
+                store(s + twist * lanes, bond.mt);
+                store3(s + bending * lanes, bond.mb);
+                const auto margin = margins_of(c, bond, strength); // negative where no bond is left: its state is zero
+                worst = larger(worst, larger(margin.tension, margin.shear));
+                const auto wr = loads(bond, normal, ra, rb);
+                store3(f + i, load3<L>(f + i) + wr.force_a);
+                store3(f + j, load3<L>(f + j) - wr.force_a);
+                store3(t + i, load3<L>(t + i) + wr.moment_a);
+                store3(t + j, load3<L>(t + j) + wr.moment_b);
+            }
         double largest = worst[0];
-        for (std::size_t l = 1; l < lanes; ++l) largest = std::max(largest, worst[l]);
+        for (std::size_t l = 1; l < sizeof(L) / sizeof(double); ++l) largest = std::max(largest, worst[l]);
         return largest >= 0.0;
     }
 

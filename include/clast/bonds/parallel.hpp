@@ -87,12 +87,12 @@ struct state {
     template <class A> void archive(A& a) { a(n, v, mt, mb); }
 };
 
-/// The same for eight bonds of a kind.
-struct state_x8 {
-    lane8 n;
-    vec3x8 v;
-    lane8 mt;
-    vec3x8 mb;
+/// The same for eight bonds of a kind, or four.
+template <several L> struct state_of {
+    L n;
+    vec3_of<L> v;
+    L mt;
+    vec3_of<L> mb;
 };
 
 /// Force and moments that a bond exerts on its two balls.
@@ -104,7 +104,8 @@ template <class Vector> struct basic_wrench {
 using wrench = basic_wrench<vec3>;
 
 /// Adds the increments of one step: dv, dw are the relative velocity at the bond point and the relative spin (b minus
-/// a), n the unit normal from a to b. For one bond (state, vec3, double) or eight of a kind (state_x8, vec3x8, lane8).
+/// a), n the unit normal from a to b. For one bond (state, vec3, double) or several of a kind (state_of, vec3_of,
+/// lanes).
 template <class State, class Vector, class Real>
 inline void stretch(const constants& c, State& s, const Vector& n, const Vector& dv, const Vector& dw, const Real& dt) {
     const auto un = dot(dv, n), tn = dot(dw, n);
@@ -130,7 +131,7 @@ template <class State, class Vector> inline auto loads(const State& s, const Vec
 }
 
 /// Turns shear force and bending moment into the plane of the new normal and with the mean spin about it over dt,
-/// keeping their size: turning must not do work. For one bond or eight of a kind.
+/// keeping their size: turning must not do work. For one bond or several of a kind.
 template <class State, class Vector> inline void turn(State& s, const Vector& n, const Vector& mean_spin, double dt) {
     const auto angle = dot(mean_spin, n) * dt;
     const auto follow = [&](Vector& a) {

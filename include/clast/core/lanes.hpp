@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -60,24 +61,34 @@ template <class F> [[gnu::always_inline]] inline auto with_widest_registers(F f)
     return f(own_width{});
 }
 
-/// Eight doubles with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction set,
-/// compiled to what the target has).
+/// Eight doubles, or four, with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction
+/// set, compiled to what the target has).
 using lane8 = double __attribute__((vector_size(64)));
+using lane4 = double __attribute__((vector_size(32)));
 inline constexpr std::size_t lanes = 8;
 /// A number of items, rounded up to whole lanes.
 constexpr std::size_t whole_lanes(std::size_t items) { return (items + lanes - 1) / lanes * lanes; }
+template <class L>
+concept several = std::same_as<L, lane4> || std::same_as<L, lane8>;
+/// What long expressions over eight numbers are written in: where registers hold four doubles or two, eight would take
+/// two or four registers each, and most of them would be in memory.
+template <class Width> using lanes_of = std::conditional_t<Width::of_loops == 8, lane8, lane4>;
 
 namespace detail { // typedefs, because Clang does not let `using` lower an alignment
+typedef double lane4_anywhere __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double lane8_anywhere __attribute__((vector_size(64), aligned(8), may_alias));
+template <class L> struct anywhere { using type = lane8_anywhere; };
+template <> struct anywhere<lane4> { using type = lane4_anywhere; };
 } // namespace detail
 /// From and to memory of any alignment. (GCC copies by memcpy in pieces of the registers that the program is built for,
 /// also where it may use wider ones, and then waits for the pieces: three times the time of a step with AVX2.)
-[[gnu::always_inline]] inline lane8 load8(const double* p) {
-    return *reinterpret_cast<const detail::lane8_anywhere*>(p);
+template <several L> [[gnu::always_inline]] inline L load(const double* p) {
+    return *reinterpret_cast<const typename detail::anywhere<L>::type*>(p);
 }
-[[gnu::always_inline]] inline void store8(double* p, const lane8& v) {
-    *reinterpret_cast<detail::lane8_anywhere*>(p) = v;
+template <several L> [[gnu::always_inline]] inline void store(double* p, const L& v) {
+    *reinterpret_cast<typename detail::anywhere<L>::type*>(p) = v;
 }
+
 /// Whether eight numbers in memory are all 0 (and not -0).
 inline bool all_zero8(const double* p) {
     std::uint64_t word[lanes], bits = 0;
@@ -88,45 +99,52 @@ inline bool all_zero8(const double* p) {
 
 /// Larger of two, absolute value and sign (0 for 0), for one number or for lanes.
 inline double larger(double a, double b) { return a > b ? a : b; }
-inline lane8 larger(const lane8& a, const lane8& b) { return a > b ? a : b; }
+template <several L> L larger(const L& a, const L& b) { return a > b ? a : b; }
 inline double magnitude(double a) { return larger(a, -a); }
-inline lane8 magnitude(const lane8& a) { return larger(a, -a); }
+template <several L> L magnitude(const L& a) { return larger(a, -a); }
 inline double sign_of(double a) { return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : 0.0; }
-inline lane8 sign_of(const lane8& a) {
-    const lane8 zero{}, one = zero + 1.0;
+template <several L> L sign_of(const L& a) {
+    const L zero{}, one = zero + 1.0;
     return (a > zero ? one : zero) - (a < zero ? one : zero);
 }
 
 /// Square root, and a / b with 1 where b is 0, for one number or for lanes.
 inline double root(double a) { return std::sqrt(a); }
-inline lane8 root(const lane8& a) {
+template <several L> L root(const L& a) {
     alignas(64) double x[lanes];
-    store8(x, a);
-    for (std::size_t l = 0; l < lanes; ++l) x[l] = std::sqrt(x[l]); // compilers make one instruction of it, or a few
-    return load8(x);
+    store(x, a);
+    for (std::size_t l = 0; l < sizeof a / sizeof *x; ++l)
+        x[l] = std::sqrt(x[l]); // compilers make one instruction of it, or a few
+    return load<L>(x);
 }
 inline double ratio(double a, double b) { return b > 0.0 ? a / b : 1.0; }
-inline lane8 ratio(const lane8& a, const lane8& b) {
-    const lane8 zero{}, one = zero + 1.0;
+template <several L> L ratio(const L& a, const L& b) {
+    const L zero{}, one = zero + 1.0;
     return b > zero ? a / b : one;
 }
 
-/// Cartesian vectors of eight items.
-struct vec3x8 {
-    lane8 x, y, z;
-};
-inline vec3x8 operator+(const vec3x8& a, const vec3x8& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vec3x8 operator-(const vec3x8& a, const vec3x8& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vec3x8 operator*(const lane8& s, const vec3x8& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline vec3x8 operator*(double s, const vec3x8& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline vec3x8& operator+=(vec3x8& a, const vec3x8& b) { return a = a + b; }
-inline lane8 dot(const vec3x8& a, const vec3x8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline lane8 norm2(const vec3x8& a) { return dot(a, a); }
-inline vec3x8 cross(const vec3x8& a, const vec3x8& b) {
+/// Cartesian vectors of eight items, or four.
+template <several L> struct vec3_of { L x, y, z; };
+template <several L> vec3_of<L> operator+(const vec3_of<L>& a, const vec3_of<L>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <several L> vec3_of<L> operator-(const vec3_of<L>& a, const vec3_of<L>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <several L> vec3_of<L> operator*(const L& s, const vec3_of<L>& a) { return {s * a.x, s * a.y, s * a.z}; }
+template <several L> vec3_of<L> operator*(double s, const vec3_of<L>& a) { return {s * a.x, s * a.y, s * a.z}; }
+template <several L> vec3_of<L>& operator+=(vec3_of<L>& a, const vec3_of<L>& b) { return a = a + b; }
+template <several L> L dot(const vec3_of<L>& a, const vec3_of<L>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <several L> L norm2(const vec3_of<L>& a) { return dot(a, a); }
+template <several L> vec3_of<L> cross(const vec3_of<L>& a, const vec3_of<L>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Eight vectors stored as x, y, z blocks of eight.
-inline vec3x8 load3x8(const double* p) { return {load8(p), load8(p + lanes), load8(p + 2 * lanes)}; }
-inline void store3x8(double* p, const vec3x8& v) { store8(p, v.x), store8(p + lanes, v.y), store8(p + 2 * lanes, v.z); }
+/// Vectors stored as x, y, z blocks of eight; of four those in the first half of each block.
+template <several L> vec3_of<L> load3(const double* p) {
+    return {load<L>(p), load<L>(p + lanes), load<L>(p + 2 * lanes)};
+}
+template <several L> void store3(double* p, const vec3_of<L>& v) {
+    store(p, v.x), store(p + lanes, v.y), store(p + 2 * lanes, v.z);
+}
 
 } // namespace clast

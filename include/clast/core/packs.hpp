@@ -12,11 +12,9 @@
 namespace clast {
 
 using lane2 = double __attribute__((vector_size(16)));
-using lane4 = double __attribute__((vector_size(32)));
 
 namespace detail {
 typedef double lane2_anywhere __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double lane4_anywhere __attribute__((vector_size(32), aligned(8), may_alias));
 } // namespace detail
 /// From and to memory of any alignment.
 [[gnu::always_inline]] inline void load_lane(lane2& v, const void* p) {
