@@ -9,8 +9,8 @@
 using namespace clast;
 
 TEMPLATE_TEST_CASE("lanes: several numbers at once give what one number gives, memory of any alignment included", "",
-                   lane8, lane4) {
-    constexpr std::size_t width = sizeof(TestType) / sizeof(double);
+                   lane8, lane4, lane2) {
+    constexpr std::size_t width = lanes_in<TestType>;
     std::array<double, 19> memory{};
     const std::array<double, 8> a = {-2.0, -0.5, 0.0, 1e-300, 0.5, 1.0, 3.0, -1e9};
     const std::array<double, 8> b = {-3.0, 0.5, -0.0, 0.0, 0.5, 2.0, -3.0, 1e9};
@@ -31,8 +31,8 @@ TEMPLATE_TEST_CASE("lanes: several numbers at once give what one number gives, m
     CHECK(larger(-3.0, -2.0) == -2.0);
 }
 
-TEMPLATE_TEST_CASE("lanes: several vectors at once give what one vector gives", "", lane8, lane4) {
-    constexpr std::size_t width = sizeof(TestType) / sizeof(double);
+TEMPLATE_TEST_CASE("lanes: several vectors at once give what one vector gives", "", lane8, lane4, lane2) {
+    constexpr std::size_t width = lanes_in<TestType>;
     std::array<double, 24> a{}, b{}, out{};
     const auto at = [](const std::array<double, 24>& m, std::size_t l) {
         return vec3{m[l], m[lanes + l], m[2 * lanes + l]};

@@ -270,7 +270,7 @@ class cluster_pool {
     void turn_along(std::size_t batch, const std::vector<std::size_t>& left, double dt, const double* w,
                     const double* x, double* axis) {
         for (const std::size_t b : left)
-            for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+            for (std::size_t part = 0; part < lanes; part += lanes_in<L>) {
                 double* const s = values_.data() + base(batch, b) + part;
                 const std::size_t i = end_a(b) * 3 * lanes + part, j = end_b(b) * 3 * lanes + part;
                 const vec3_of<L> d = load3<L>(x + j) - load3<L>(x + i);
@@ -288,7 +288,7 @@ class cluster_pool {
     void kick(double h, double* v, double* w, const double* fe, const double* te, const double* f, const double* t,
               double* u, const std::array<double, lanes>& live, std::array<double, lanes>& dissipated) const {
         const std::size_t n = shape_.size();
-        for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+        for (std::size_t part = 0; part < lanes; part += lanes_in<L>) {
             const L on = load<L>(live.data() + part);
             L work{};
             for (std::size_t i = 0; i < n; ++i) {
@@ -320,7 +320,7 @@ class cluster_pool {
         std::fill(t, t + n * 3 * lanes, 0.0);
         L worst = L{} - 1.0;
         for (const std::size_t b : left)
-            for (std::size_t part = 0; part < lanes; part += sizeof(L) / sizeof(double)) {
+            for (std::size_t part = 0; part < lanes; part += lanes_in<L>) {
                 const L strength = load<L>(strength_.data() + batch * lanes + part);
                 double* const s = values_.data() + base(batch, b) + part;
                 const constants& c = shape_.bond[b];
@@ -346,7 +346,7 @@ class cluster_pool {
                 store3(t + j, load3<L>(t + j) + wr.moment_b);
             }
         double largest = worst[0];
-        for (std::size_t l = 1; l < sizeof(L) / sizeof(double); ++l) largest = std::max(largest, worst[l]);
+        for (std::size_t l = 1; l < lanes_in<L>; ++l) largest = std::max(largest, worst[l]);
         return largest >= 0.0;
     }
 

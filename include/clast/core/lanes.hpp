@@ -61,32 +61,37 @@ template <class F> [[gnu::always_inline]] inline auto with_widest_registers(F f)
     return f(own_width{});
 }
 
-/// Eight doubles, or four, with elementwise arithmetic (a vector extension that GCC and Clang share; any instruction
-/// set, compiled to what the target has).
+/// Eight doubles, or four or two, with elementwise arithmetic (a vector extension that GCC and Clang share; any
+/// instruction set, compiled to what the target has).
 using lane8 = double __attribute__((vector_size(64)));
 using lane4 = double __attribute__((vector_size(32)));
+using lane2 = double __attribute__((vector_size(16)));
 inline constexpr std::size_t lanes = 8;
 /// A number of items, rounded up to whole lanes.
 constexpr std::size_t whole_lanes(std::size_t items) { return (items + lanes - 1) / lanes * lanes; }
 template <class L>
-concept several = std::same_as<L, lane4> || std::same_as<L, lane8>;
+concept several = std::same_as<L, lane2> || std::same_as<L, lane4> || std::same_as<L, lane8>;
+/// How many doubles they are.
+template <several L> inline constexpr std::size_t lanes_in = sizeof(L) / sizeof(double);
 /// What long expressions over eight numbers are written in: where registers hold four doubles or two, eight would take
 /// two or four registers each, and most of them would be in memory.
 template <class Width> using lanes_of = std::conditional_t<Width::of_loops == 8, lane8, lane4>;
 
 namespace detail { // typedefs, because Clang does not let `using` lower an alignment
+typedef double lane2_anywhere __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double lane4_anywhere __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double lane8_anywhere __attribute__((vector_size(64), aligned(8), may_alias));
 template <class L> struct anywhere { using type = lane8_anywhere; };
+template <> struct anywhere<lane2> { using type = lane2_anywhere; };
 template <> struct anywhere<lane4> { using type = lane4_anywhere; };
 } // namespace detail
 /// From and to memory of any alignment. (GCC copies by memcpy in pieces of the registers that the program is built for,
 /// also where it may use wider ones, and then waits for the pieces: three times the time of a step with AVX2.)
-template <several L> [[gnu::always_inline]] inline L load(const double* p) {
-    return *reinterpret_cast<const typename detail::anywhere<L>::type*>(p);
+template <several L> [[gnu::always_inline]] inline L load(const void* p) {
+    return *static_cast<const typename detail::anywhere<L>::type*>(p);
 }
-template <several L> [[gnu::always_inline]] inline void store(double* p, const L& v) {
-    *reinterpret_cast<typename detail::anywhere<L>::type*>(p) = v;
+template <several L> [[gnu::always_inline]] inline void store(void* p, const L& v) {
+    *static_cast<typename detail::anywhere<L>::type*>(p) = v;
 }
 
 /// Whether eight numbers in memory are all 0 (and not -0).
@@ -113,7 +118,7 @@ inline double root(double a) { return std::sqrt(a); }
 template <several L> L root(const L& a) {
     alignas(64) double x[lanes];
     store(x, a);
-    for (std::size_t l = 0; l < sizeof a / sizeof *x; ++l)
+    for (std::size_t l = 0; l < lanes_in<L>; ++l)
         x[l] = std::sqrt(x[l]); // compilers make one instruction of it, or a few
     return load<L>(x);
 }

@@ -11,21 +11,6 @@
 
 namespace clast {
 
-using lane2 = double __attribute__((vector_size(16)));
-
-namespace detail {
-typedef double lane2_anywhere __attribute__((vector_size(16), aligned(8), may_alias));
-} // namespace detail
-/// From and to memory of any alignment.
-[[gnu::always_inline]] inline void load_lane(lane2& v, const void* p) {
-    v = *static_cast<const detail::lane2_anywhere*>(p);
-}
-[[gnu::always_inline]] inline void load_lane(lane4& v, const void* p) {
-    v = *static_cast<const detail::lane4_anywhere*>(p);
-}
-[[gnu::always_inline]] inline void store_lane(void* p, const lane2& v) { *static_cast<detail::lane2_anywhere*>(p) = v; }
-[[gnu::always_inline]] inline void store_lane(void* p, const lane4& v) { *static_cast<detail::lane4_anywhere*>(p) = v; }
-
 /// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
 template <std::size_t N> class pack_columns {
     using lane = std::conditional_t<N == 4, lane4, lane2>;
@@ -35,10 +20,10 @@ template <std::size_t N> class pack_columns {
 
     [[gnu::always_inline]] pack_columns(const records& record, std::size_t at) {
         if constexpr (N == 4)
-            even_ = join(load2(record[0] + at), load2(record[2] + at)),
-            odd_ = join(load2(record[1] + at), load2(record[3] + at));
+            even_ = join(load<lane2>(record[0] + at), load<lane2>(record[2] + at)),
+            odd_ = join(load<lane2>(record[1] + at), load<lane2>(record[3] + at));
         else
-            even_ = load2(record[0] + at), odd_ = load2(record[1] + at);
+            even_ = load<lane2>(record[0] + at), odd_ = load<lane2>(record[1] + at);
     }
     [[gnu::always_inline]] friend pack_columns operator-(const pack_columns& a, const pack_columns& b) {
         return {a.even_ - b.even_, a.odd_ - b.odd_};
@@ -54,14 +39,9 @@ template <std::size_t N> class pack_columns {
             v = __builtin_shufflevector(even_, odd_, C, C + 4, C + 2, C + 6);
         else
             v = __builtin_shufflevector(even_, odd_, C, C + 2);
-        store_lane(to, v);
+        store(to, v);
     }
     [[gnu::always_inline]] pack_columns(const lane& even, const lane& odd) : even_(even), odd_(odd) {}
-    [[gnu::always_inline]] static lane2 load2(const std::byte* p) {
-        lane2 v;
-        load_lane(v, p);
-        return v;
-    }
     [[gnu::always_inline]] static lane4 join(const lane2& a, const lane2& b) {
         return __builtin_shufflevector(a, b, 0, 1, 2, 3);
     }
@@ -108,11 +88,11 @@ template <std::size_t N> class quad {
     [[gnu::always_inline]] static quad load(const void* from) {
         quad q;
         for (std::size_t k = 0; k < parts; ++k)
-            load_lane(q.part_[k], static_cast<const std::byte*>(from) + k * sizeof(pack));
+            q.part_[k] = clast::load<pack>(static_cast<const std::byte*>(from) + k * sizeof(pack));
         return q;
     }
     [[gnu::always_inline]] void store(void* to) const {
-        for (std::size_t k = 0; k < parts; ++k) store_lane(static_cast<std::byte*>(to) + k * sizeof(pack), part_[k]);
+        for (std::size_t k = 0; k < parts; ++k) clast::store(static_cast<std::byte*>(to) + k * sizeof(pack), part_[k]);
     }
     [[gnu::always_inline]] double operator[](std::size_t k) const { return part_[k / N][k % N]; }
 
