@@ -46,7 +46,7 @@ struct look_job {
 /// Adds to the loads of bodies.
 struct sum_job {
     const pebble_pair* pairs;
-    body_load* loads;
+    load_sum* loads;
 
     template <class Strip> [[gnu::always_inline]] void adjust(Strip&, const contact_block&) const {}
     template <class Width, class Strip>
@@ -67,7 +67,7 @@ template <class Law> void in_cache(benchmark::State& state, Law law) {
 
 template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
-    std::vector<body_load> load(c.pebbles.size());
+    std::vector<load_sum> load(c.pebbles.size());
     for (auto _ : state) {
         evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6,
                  sum_job{c.list.pairs.data(), load.data()});

@@ -193,15 +193,15 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
         CHECK(norm(f.force - alone.list.rows[row].force) <= 1e-9 * norm(f.force));
         const std::size_t i = 2 * row, j = i + 1;
         const vec3 at = pebbles[i].x + (pebbles[i].radius - 0.5 * f.depth) * f.normal;
-        body_load a, b;
+        load_sum a, b;
         loads[row].add_to_i(a), loads[row].add_to_j(b);
-        const auto is = [](const four& v, const vec3& w) { return norm(v.xyz() - w) <= 1e-12 * (norm(w) + 1e-9); };
+        const auto is = [](const vec3& v, const vec3& w) { return norm(v - w) <= 1e-12 * (norm(w) + 1e-9); };
         CHECK(is(a.force, f.force));
         CHECK(is(b.force, -f.force));
-        CHECK(norm(a.moment.xyz() - cross(at - centre(i), f.force)) <= 1e-12 * norm(f.force));
-        CHECK(norm(b.moment.xyz() + cross(at - centre(j), f.force)) <= 1e-12 * norm(f.force));
-        CHECK(a.moment.w == f.dissipated);
-        CHECK(b.moment.w == 0.0);
+        CHECK(norm(a.moment - cross(at - centre(i), f.force)) <= 1e-12 * norm(f.force));
+        CHECK(norm(b.moment + cross(at - centre(j), f.force)) <= 1e-12 * norm(f.force));
+        CHECK(a.dissipated == f.dissipated);
+        CHECK(b.dissipated == 0.0);
         touching += f.depth > 0.0, booked += f.dissipated > 0.0;
     }
     CHECK(touching > 20);

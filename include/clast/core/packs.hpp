@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From records in memory to one array per component and back: transposes of blocks of 2 or 4, as registers have it.
+// Records of four numbers: arithmetic on a whole one, and from four of them to one array per component and back.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <type_traits>
 
@@ -11,64 +10,8 @@
 
 namespace clast {
 
-/// The two doubles that stand `at` bytes behind the beginning of N records (2 or 4), ready to become two columns.
-template <std::size_t N> class pack_columns {
-    using lane = std::conditional_t<N == 4, lane4, lane2>;
-
-  public:
-    using records = std::array<const std::byte*, N>;
-
-    [[gnu::always_inline]] pack_columns(const records& record, std::size_t at) {
-        if constexpr (N == 4)
-            even_ = join(load<lane2>(record[0] + at), load<lane2>(record[2] + at)),
-            odd_ = join(load<lane2>(record[1] + at), load<lane2>(record[3] + at));
-        else
-            even_ = load<lane2>(record[0] + at), odd_ = load<lane2>(record[1] + at);
-    }
-    [[gnu::always_inline]] friend pack_columns operator-(const pack_columns& a, const pack_columns& b) {
-        return {a.even_ - b.even_, a.odd_ - b.odd_};
-    }
-    /// The first and the second double of every record, in order.
-    [[gnu::always_inline]] void first(double* to) const { column<0>(to); }
-    [[gnu::always_inline]] void second(double* to) const { column<1>(to); }
-
-  private:
-    template <int C> [[gnu::always_inline]] void column(double* to) const {
-        lane v;
-        if constexpr (N == 4)
-            v = __builtin_shufflevector(even_, odd_, C, C + 4, C + 2, C + 6);
-        else
-            v = __builtin_shufflevector(even_, odd_, C, C + 2);
-        store(to, v);
-    }
-    [[gnu::always_inline]] pack_columns(const lane& even, const lane& odd) : even_(even), odd_(odd) {}
-    [[gnu::always_inline]] static lane4 join(const lane2& a, const lane2& b) {
-        return __builtin_shufflevector(a, b, 0, 1, 2, 3);
-    }
-
-    lane even_, odd_; ///< of records 0, 2 and 1, 3 (or 0 and 1)
-};
-
-/// The vectors that stand `at` bytes behind the beginning of N records, as columns; a fourth number must follow them.
-template <std::size_t N>
-[[gnu::always_inline]] inline void transpose(const std::array<const std::byte*, N>& record, std::size_t at, double* x,
-                                             double* y, double* z) {
-    const pack_columns<N> xy(record, at), zw(record, at + 2 * sizeof(double));
-    xy.first(x), xy.second(y), zw.first(z);
-}
-/// The same with the fourth number.
-template <std::size_t N>
-[[gnu::always_inline]] inline void transpose(const std::array<const std::byte*, N>& record, std::size_t at, double* x,
-                                             double* y, double* z, double* w) {
-    const pack_columns<N> xy(record, at), zw(record, at + 2 * sizeof(double));
-    xy.first(x), xy.second(y), zw.first(z), zw.second(w);
-}
-
-/// A vector and one more number, side by side in memory.
-struct alignas(32) four {
-    double x = 0.0, y = 0.0, z = 0.0, w = 0.0;
-    constexpr vec3 xyz() const { return {x, y, z}; }
-};
+/// Where a record stands in memory.
+template <class T> const std::byte* bytes_of(const T& record) { return reinterpret_cast<const std::byte*>(&record); }
 
 /// Four doubles with elementwise arithmetic, in registers of N (2 or 4).
 template <std::size_t N> class quad {
@@ -119,6 +62,11 @@ template <std::size_t N> class quad {
         for (std::size_t k = 0; k < parts; ++k) scaled.part_[k] = s * a.part_[k];
         return scaled;
     }
+    [[gnu::always_inline]] friend quad operator*(const quad& a, const quad& b) {
+        quad product;
+        for (std::size_t k = 0; k < parts; ++k) product.part_[k] = a.part_[k] * b.part_[k];
+        return product;
+    }
     /// The same with the fourth number of another.
     [[gnu::always_inline]] quad with_fourth_of(const quad& b) const {
         quad q = *this;
@@ -127,6 +75,17 @@ template <std::size_t N> class quad {
         else
             q.part_[1] = __builtin_shufflevector(part_[1], b.part_[1], 0, 3);
         return q;
+    }
+    /// Absolute values, and signs (0 for 0).
+    [[gnu::always_inline]] friend quad magnitude(const quad& a) {
+        quad size;
+        for (std::size_t k = 0; k < parts; ++k) size.part_[k] = clast::magnitude(a.part_[k]);
+        return size;
+    }
+    [[gnu::always_inline]] friend quad sign_of(const quad& a) {
+        quad sign;
+        for (std::size_t k = 0; k < parts; ++k) sign.part_[k] = clast::sign_of(a.part_[k]);
+        return sign;
     }
     /// The four records {x[l], y[l], z[l], w[l]}.
     [[gnu::always_inline]] static void records(const double* x, const double* y, const double* z, const double* w,
@@ -145,10 +104,48 @@ template <std::size_t N> class quad {
             for (std::size_t l = 0; l < 4; ++l) r[l] = quad(x[l], y[l], z[l], w[l]);
         }
     }
+    /// The reverse, without the fourth numbers: x[l], y[l], z[l] of the records r[l].
+    [[gnu::always_inline]] static void columns(const quad (&r)[4], double* x, double* y, double* z) {
+        const interleaved pairs(r);
+        pairs.template column<0>(x), pairs.template column<1>(y), pairs.template column<2>(z);
+    }
+    /// The fourth numbers alone.
+    [[gnu::always_inline]] static void fourth_column(const quad (&r)[4], double* w) {
+        interleaved(r).template column<3>(w);
+    }
 
   private:
+    /// Half way to columns: the even and the odd numbers of two records side by side. Compilers make the same half of
+    /// the same records only once.
+    struct interleaved {
+        pack even[2][parts], odd[2][parts];
+
+        [[gnu::always_inline]] explicit interleaved(const quad (&r)[4]) {
+            for (std::size_t two = 0; two < 2; ++two)
+                for (std::size_t k = 0; k < parts; ++k) {
+                    const pack &a = r[2 * two].part_[k], &b = r[2 * two + 1].part_[k];
+                    if constexpr (N == 4)
+                        even[two][k] = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+                        odd[two][k] = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+                    else
+                        even[two][k] = __builtin_shufflevector(a, b, 0, 2),
+                        odd[two][k] = __builtin_shufflevector(a, b, 1, 3);
+                }
+        }
+        template <int C> [[gnu::always_inline]] void column(double* to) const {
+            const auto& half = C % 2 == 0 ? even : odd;
+            constexpr int at = C / 2 * 2; // of the two numbers of the first two records
+            if constexpr (N == 4)
+                clast::store<pack>(to, __builtin_shufflevector(half[0][0], half[1][0], at, at + 1, at + 4, at + 5));
+            else
+                clast::store<pack>(to, half[0][C / 2]), clast::store<pack>(to + 2, half[1][C / 2]);
+        }
+    };
+
     pack part_[parts] = {};
 };
-static_assert(sizeof(quad<2>) == sizeof(four) && sizeof(quad<4>) == sizeof(four));
+/// Bytes of four numbers.
+inline constexpr std::size_t quad_size = 4 * sizeof(double);
+static_assert(sizeof(quad<2>) == quad_size && sizeof(quad<4>) == quad_size);
 
 } // namespace clast

@@ -68,6 +68,18 @@ struct force_row {
     double dissipated = 0.0; ///< in this step (J)
 };
 
+/// What acts on a body, in two blocks of four numbers.
+struct alignas(64) load_sum {
+    vec3 force; ///< N
+    double spare = 0.0;
+    vec3 moment;             ///< about its centre (N m)
+    double dissipated = 0.0; ///< the loss to friction that is booked on it (J)
+
+    load_sum() = default;
+    load_sum(const vec3& f, const vec3& m, double loss = 0.0) : force(f), moment(m), dissipated(loss) {}
+};
+static_assert(sizeof(load_sum) == 8 * sizeof(double));
+
 struct pebble_pair {
     std::int32_t i; ///< i < j
     std::int32_t j;

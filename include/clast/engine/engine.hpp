@@ -442,7 +442,7 @@ template <triaxial_policies P> class engine {
         std::size_t gathered, taken; ///< where in across_ to go on
         bool shared;                 ///< between two ranges
         force_row* rows;             ///< of the list, or nullptr if nobody looks at them
-        body_load* const acting = owner.acting_.data();
+        load_sum* const acting = owner.acting_.data();
         contact_load<>* const shared_load = owner.shared_load_.data();
         const pebble_pair* const pairs = owner.slow_.pairs.data();
 
@@ -646,10 +646,10 @@ template <triaxial_policies P> class engine {
     /// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and
     /// wall rows that come next.
     load_sum complete_load([[maybe_unused]] range_work& work, std::size_t g, std::size_t& shared, std::size_t& wall) {
-        body_load& sum = acting_[g];
+        load_sum& sum = acting_[g];
         for (; shared < slow_.shared && grains.body_of(slow_.pairs[shared].i) == g; ++shared)
             shared_load_[shared].add_to_i(sum);
-        load_sum load{sum.force.xyz(), sum.moment.xyz(), sum.moment.w};
+        load_sum load = sum;
         sum = {};
         for (; wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == g; ++wall) {
             const wall_row& w = slow_wall_[wall];
@@ -1568,7 +1568,7 @@ template <triaxial_policies P> class engine {
     body_ranges ranges_;
     std::vector<range_work> sweeping_;        ///< per range
     std::vector<contact_load<>> shared_load_; ///< of the contacts between two ranges
-    std::vector<body_load> acting_;           ///< per body; zero between steps
+    std::vector<load_sum> acting_;            ///< per body; zero between steps
     bool look_ = false;                       ///< the criterion looks at this step
     std::vector<birth_certificate> marked_;   ///< empty between steps
     std::conditional_t<breakable, breakage_state, nothing> broken_;

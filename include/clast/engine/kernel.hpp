@@ -11,7 +11,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -56,23 +55,17 @@ struct contact_block {
     std::size_t at, row, size;
 };
 
-/// Force and moment on a body as the kernel sums them.
-struct alignas(64) body_load {
-    four force;  ///< N; the fourth number is of no use
-    four moment; ///< about its centre (N m), and the energy dissipated (J)
-};
-
 /// What one contact adds to the loads of its two bodies, in registers of N doubles.
 template <std::size_t N = own_width::value> struct alignas(32) contact_load {
     quad<N> force;    ///< on i; j takes the opposite
     quad<N> moment_i; ///< and the energy dissipated, which is booked on i
     quad<N> moment_j;
 
-    [[gnu::always_inline]] void add_to_i(body_load& i) const {
+    [[gnu::always_inline]] void add_to_i(load_sum& i) const {
         (quad<N>::load(&i.force) + force).store(&i.force);
         (quad<N>::load(&i.moment) + moment_i).store(&i.moment);
     }
-    [[gnu::always_inline]] void add_to_j(body_load& j) const {
+    [[gnu::always_inline]] void add_to_j(load_sum& j) const {
         (quad<N>::load(&j.force) - force).store(&j.force);
         (quad<N>::load(&j.moment) + moment_j).store(&j.moment);
     }
@@ -87,43 +80,46 @@ namespace detail {
 template <std::size_t N, class Law, class View>
 [[gnu::always_inline]] inline void gather(strip<Law, View>& s, std::size_t at, const pebble_pair* pairs,
                                           const View& from) {
-    using columns = pack_columns<N>;
-    using records = typename columns::records;
-    const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
-    for (std::size_t k = at; k < at + lanes; k += N, pairs += N) {
-        const auto difference = [&](const records& a, const records& b, std::size_t where, double* x, double* y,
-                                    double* z) __attribute__((always_inline)) {
-            const columns xy = columns(b, where) - columns(a, where),
-                          zw = columns(b, where + 16) - columns(a, where + 16);
-            xy.first(x + k), xy.second(y + k), zw.first(z + k);
-        };
-        constexpr std::size_t centre = 0, velocity = 32, spin = 64; // bytes, in pebble_motion and in body_motion
-        records pi, pj, bi, bj;
-        for (std::size_t l = 0; l < N; ++l) {
+    using row = quad<N>; // whole blocks of four numbers are loaded and subtracted, and transposed last
+    constexpr auto load =
+        [](const std::byte* const(&records)[4], std::size_t where, row(&rows)[4]) __attribute__((always_inline)) {
+        for (std::size_t l = 0; l < 4; ++l) rows[l] = row::load(records[l] + where);
+    };
+    constexpr auto difference =
+        [](const row(&a)[4], const row(&b)[4], double* x, double* y, double* z) __attribute__((always_inline)) {
+        row d[4];
+        for (std::size_t l = 0; l < 4; ++l) d[l] = b[l] - a[l];
+        row::columns(d, x, y, z);
+    };
+    constexpr std::size_t centre = 0, velocity = 32, spin = 64; // bytes, in pebble_motion and in body_motion
+    for (std::size_t k = at; k < at + lanes; k += 4, pairs += 4) {
+        const std::byte *pi[4], *pj[4], *bi[4], *bj[4]; // pebbles and bodies
+        for (std::size_t l = 0; l < 4; ++l) {
             const pebble_pair& p = pairs[l];
-            pi[l] = bytes(from.pebbles[p.i]), pj[l] = bytes(from.pebbles[p.j]);
+            pi[l] = bytes_of(from.pebbles[p.i]), pj[l] = bytes_of(from.pebbles[p.j]);
             if constexpr (strip<Law, View>::has_arms)
-                bi[l] = bytes(from.bodies[from.owner[p.i]]), bj[l] = bytes(from.bodies[from.owner[p.j]]);
+                bi[l] = bytes_of(from.bodies[from.owner[p.i]]), bj[l] = bytes_of(from.bodies[from.owner[p.j]]);
             else
                 bi[l] = pi[l], bj[l] = pj[l];
         }
-        difference(pi, pj, centre, s.dx, s.dy, s.dz);
-        columns(pi, centre + 16).second(s.radius_i + k);
-        columns(pj, centre + 16).second(s.radius_j + k);
-        difference(bi, bj, velocity, s.vx, s.vy, s.vz);
-        transpose(bi, spin, s.ix + k, s.iy + k, s.iz + k);
-        transpose(bj, spin, s.jx + k, s.jy + k, s.jz + k);
+        row i[4], j[4];
+        load(pi, centre, i), load(pj, centre, j), difference(i, j, s.dx + k, s.dy + k, s.dz + k);
+        row::fourth_column(i, s.radius_i + k), row::fourth_column(j, s.radius_j + k);
         if constexpr (strip<Law, View>::has_arms) {
-            difference(bi, pi, centre, s.aix, s.aiy, s.aiz);
-            difference(bj, pj, centre, s.ajx, s.ajy, s.ajz);
+            row body[4];
+            load(bi, centre, body), difference(body, i, s.aix + k, s.aiy + k, s.aiz + k);
+            load(bj, centre, body), difference(body, j, s.ajx + k, s.ajy + k, s.ajz + k);
         }
+        load(bi, velocity, i), load(bj, velocity, j), difference(i, j, s.vx + k, s.vy + k, s.vz + k);
+        load(bi, spin, i), row::columns(i, s.ix + k, s.iy + k, s.iz + k);
+        load(bj, spin, j), row::columns(j, s.jx + k, s.jy + k, s.jz + k);
     }
 }
 
 /// Asks for the second pebbles of 8 pairs (the first ones follow each other in memory, which processors see).
 template <class View> [[gnu::always_inline]] inline void prefetch(const pebble_pair* pairs, const View& from) {
     for (std::size_t k = 0; k < lanes; ++k) {
-        const auto* const p = reinterpret_cast<const std::byte*>(&from.pebbles[pairs[k].j]);
+        const std::byte* const p = bytes_of(from.pebbles[pairs[k].j]);
         __builtin_prefetch(p);
         if constexpr (sizeof(from.pebbles[0]) > 64) __builtin_prefetch(p + 64);
     }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -41,13 +40,6 @@ struct alignas(32) clump_rotation {
 struct body_losses {
     double friction = 0.0;
     double damping = 0.0;
-};
-
-/// Force (N) and moment about its centre (N m) that act on a body, and the loss to friction booked on it (J).
-struct load_sum {
-    vec3 force;
-    vec3 moment;
-    double dissipated = 0.0;
 };
 
 /// A body that is about to move, and what acts on it.
@@ -286,28 +278,37 @@ struct specimen {
     template <std::size_t N, std::size_t Loop>
     [[gnu::always_inline]] void fill(register_width<N, Loop>, clump_strip& s, const moving_body* bodies,
                                      const reference* since, const vec3& stretch) const {
-        const auto bytes = [](const auto& record) { return reinterpret_cast<const std::byte*>(&record); };
-        constexpr std::size_t block = sizeof(four);
-        for (std::size_t k = 0; k < s.lanes(); k += N) {
-            std::array<const std::byte*, N> load, move, turn, then, common;
-            for (std::size_t l = 0; l < N; ++l) {
+        using row = quad<N>;
+        constexpr std::size_t block = quad_size;
+        for (std::size_t k = 0; k < s.lanes(); k += 4) {
+            const std::byte *load[4], *move[4], *turn[4], *then[4], *common[4];
+            double reach[4];
+            for (std::size_t l = 0; l < 4; ++l) {
                 const moving_body& one = bodies[std::min(k + l, s.size - 1)];
                 const std::size_t g = one.body;
-                load[l] = bytes(one.load), move[l] = bytes(motion[g]), turn[l] = bytes(turning[g]);
-                then[l] = bytes(since[g]), common[l] = bytes(of_shape[static_cast<std::size_t>(grains[g].shape)]);
+                const constants& c = of_shape[static_cast<std::size_t>(grains[g].shape)];
+                load[l] = bytes_of(one.load), move[l] = bytes_of(motion[g]), turn[l] = bytes_of(turning[g]);
+                then[l] = bytes_of(since[g]), common[l] = bytes_of(c);
+                reach[l] = c.reach;
             }
-            transpose(load, 0, s.fx + k, s.fy + k, s.fz + k);
-            transpose(load, offsetof(load_sum, moment), s.mx + k, s.my + k, s.mz + k);
-            transpose(move, 0, s.x + k, s.y + k, s.z + k);
-            transpose(move, block, s.vx + k, s.vy + k, s.vz + k);
-            transpose(move, 2 * block, s.wx + k, s.wy + k, s.wz + k);
-            transpose(turn, 0, s.qw + k, s.qx + k, s.qy + k, s.qz + k);
-            transpose(turn, block, s.lx + k, s.ly + k, s.lz + k);
-            transpose(then, 0, s.tw + k, s.tx + k, s.ty + k, s.tz + k);
-            transpose(then, block, s.cx + k, s.cy + k, s.cz + k);
-            transpose(common, 0, s.ix + k, s.iy + k, s.iz + k, s.inverse_mass + k);
-            pack_columns<N>(common, block).first(s.reach + k);
-            for (std::size_t l = k; l < k + N; ++l) s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
+            row r[4];
+            const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,
+                                   double* c) __attribute__((always_inline)) {
+                for (std::size_t l = 0; l < 4; ++l) r[l] = row::load(records[l] + where);
+                row::columns(r, a, b, c);
+            };
+            each(load, 0, s.fx + k, s.fy + k, s.fz + k);
+            each(load, block, s.mx + k, s.my + k, s.mz + k);
+            each(move, 0, s.x + k, s.y + k, s.z + k);
+            each(move, block, s.vx + k, s.vy + k, s.vz + k);
+            each(move, 2 * block, s.wx + k, s.wy + k, s.wz + k);
+            each(turn, 0, s.qw + k, s.qx + k, s.qy + k), row::fourth_column(r, s.qz + k);
+            each(turn, block, s.lx + k, s.ly + k, s.lz + k);
+            each(then, 0, s.tw + k, s.tx + k, s.ty + k), row::fourth_column(r, s.tz + k);
+            each(then, block, s.cx + k, s.cy + k, s.cz + k);
+            each(common, 0, s.ix + k, s.iy + k, s.iz + k), row::fourth_column(r, s.inverse_mass + k);
+            row(reach[0], reach[1], reach[2], reach[3]).store(s.reach + k);
+            for (std::size_t l = k; l < k + 4; ++l) s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
         }
     }
     /// Columns of the matrices of four orientations, with a spare number each.
@@ -324,7 +325,7 @@ struct specimen {
             for (std::size_t l = 0; l < 4 && k + l < s.size; ++l)
                 record[l].store(reinterpret_cast<std::byte*>(&records[bodies[k + l].body]) + block);
         };
-        constexpr std::size_t block = sizeof(four);
+        constexpr std::size_t block = quad_size;
         each(motion, 0, s.x + k, s.y + k, s.z + k, nothing);
         each(motion, block, s.vx + k, s.vy + k, s.vz + k, nothing);
         each(motion, 2 * block, s.wx + k, s.wy + k, s.wz + k, nothing);
@@ -403,14 +404,9 @@ struct sphere_specimen {
     template <class Further>
     margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
                        const allowance<reference>& allowed, Further&&) {
-        margin_use use = margin_use::within;
-        for (const moving_body& one : bodies) {
-            advance(one.body, one.load, h, damping);
-            const double margin = allowed.margins[one.body];
-            const vec3 way = pebbles[one.body].x - scale(allowed.stretch, allowed.since[one.body].centre);
-            use = std::max(use, use_of(norm2(way), margin * margin));
-        }
-        return use;
+        return with_widest_registers([ =, this, &allowed ](auto width) __attribute__((always_inline)) {
+            return this->move(width, bodies, h, damping, allowed);
+        });
     }
     void place(std::size_t) {}
     void place(std::size_t, std::span<const std::int32_t>) {}
@@ -424,21 +420,39 @@ struct sphere_specimen {
     template <class A> void archive(A& a) { a(density, pebbles, losses); }
 
   private:
-    void advance(std::size_t b, const load_sum& load, double h, double damping) {
-        pebble_motion& p = pebbles[b];
-        losses[b].friction += load.dissipated;
-        if (damping == 0.0) {
-            p.v += (h * p.inverse_mass) * load.force;
-            p.w += (h * p.inverse_inertia) * load.moment;
-        } else {
-            const vec3 df = damping_force(load.force, p.v, damping);
-            const vec3 dm = damping_force(load.moment, p.w, damping);
-            const vec3 v = p.v, w = p.w;
-            p.v += (h * p.inverse_mass) * (load.force + df);
-            p.w += (h * p.inverse_inertia) * (load.moment + dm);
-            losses[b].damping -= 0.5 * h * (dot(df, v + p.v) + dot(dm, w + p.w));
+    template <std::size_t N, std::size_t Loop>
+    [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies, double h,
+                                           double damping, const allowance<reference>& allowed) {
+        using row = quad<N>;
+        const auto dot = [](const row& a, const row& b) __attribute__((always_inline)) {
+            return clast::dot(vec3{a[0], a[1], a[2]}, vec3{b[0], b[1], b[2]});
+        };
+        // held by value, or they would be read again behind every store
+        pebble_motion* const all = pebbles.data();
+        body_losses* const all_losses = losses.data();
+        const vec3 stretch = allowed.stretch;
+        const double* const margins = allowed.margins.data();
+        const reference* const since = allowed.since.data();
+        margin_use use = margin_use::within;
+        for (const moving_body& one : bodies) {
+            pebble_motion& p = all[one.body];
+            body_losses& lost = all_losses[one.body];
+            const row x0 = row::load(&p.x), v0 = row::load(&p.v), w0 = row::load(&p.w);
+            row force = row::load(&one.load.force), moment = row::load(&one.load.moment), df, dm;
+            lost.friction += one.load.dissipated;
+            if (damping != 0.0) {
+                df = damping_force(force, v0, damping), dm = damping_force(moment, w0, damping);
+                force += df, moment += dm;
+            }
+            const row v = v0 + (h * p.inverse_mass) * force, w = w0 + (h * p.inverse_inertia) * moment;
+            if (damping != 0.0) lost.damping -= 0.5 * h * (dot(df, v0 + v) + dot(dm, w0 + w));
+            const row x = x0 + h * v;
+            x.with_fourth_of(x0).store(&p.x), v.with_fourth_of(v0).store(&p.v), w.with_fourth_of(w0).store(&p.w);
+            const double margin = margins[one.body];
+            const vec3 way = vec3{x[0], x[1], x[2]} - scale(stretch, since[one.body].centre);
+            use = std::max(use, use_of(norm2(way), margin * margin));
         }
-        p.x += h * p.v;
+        return use;
     }
 };
 

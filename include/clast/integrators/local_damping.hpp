@@ -2,6 +2,9 @@
 // Local (non-viscous) damping of quasi-static tests.
 #pragma once
 
+#include <cstddef>
+
+#include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 
 namespace clast {
@@ -21,6 +24,12 @@ constexpr double damping_force(double force, double velocity, double a) {
 constexpr vec3 damping_force(const vec3& force, const vec3& velocity, double a) {
     return {damping_force(force.x, velocity.x, a), damping_force(force.y, velocity.y, a),
             damping_force(force.z, velocity.z, a)};
+}
+
+/// The same for the first three of four numbers, in registers of N doubles; the fourth is of no use.
+template <std::size_t N>
+[[gnu::always_inline]] inline quad<N> damping_force(const quad<N>& force, const quad<N>& velocity, double a) {
+    return -a * magnitude(force) * sign_of(velocity);
 }
 
 /// Local damping of the moment of a clump by components in its body frame: orientation q (body -> world), unbalanced
