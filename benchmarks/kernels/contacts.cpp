@@ -45,7 +45,6 @@ struct look_job {
 };
 /// Adds to the loads of bodies.
 struct sum_job {
-    const pebble_pair* pairs;
     load_sum* loads;
 
     template <class Strip> [[gnu::always_inline]] void adjust(Strip&, const contact_block&) const {}
@@ -53,9 +52,10 @@ struct sum_job {
     [[gnu::always_inline]] void take(Width width, const Strip& s, const contact_block& block) const {
         each_load(width, s, block, *this);
     }
-    template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
-        load.add_to_i(loads[pairs[row].i]);
-        load.add_to_j(loads[pairs[row].j]);
+    template <class Load>
+    [[gnu::always_inline]] void operator()(std::size_t, const pebble_pair& bodies, const Load& load) const {
+        load.add_to_i(loads[bodies.i]);
+        load.add_to_j(loads[bodies.j]);
     }
 };
 
@@ -69,8 +69,7 @@ template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
     std::vector<load_sum> load(c.pebbles.size());
     for (auto _ : state) {
-        evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6,
-                 sum_job{c.list.pairs.data(), load.data()});
+        evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6, sum_job{load.data()});
         benchmark::DoNotOptimize(load.data());
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));

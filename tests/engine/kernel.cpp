@@ -73,6 +73,7 @@ void evaluate_all(scene& s, std::size_t begin, std::size_t end) {
 struct load_job {
     list_type& list;
     std::vector<contact_load<>>& loads;
+    std::vector<pebble_pair>& bodies;
     std::size_t next = 0; ///< row to come
     bool in_order = true;
 
@@ -84,7 +85,9 @@ struct load_job {
         each_load(width, s, block, *this);
         next += block.size;
     }
-    template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
+    template <class Load>
+    [[gnu::always_inline]] void operator()(std::size_t row, const pebble_pair& of, const Load& load) const {
+        bodies[row] = of;
         load.store(loads[row]);
     }
 };
@@ -184,7 +187,8 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
     scene alone = s; // the same contacts of pebbles that are bodies themselves
     evaluate_all(alone, 0, 70);
     std::vector<contact_load<>> loads(70);
-    const load_job done = evaluate(s.list, {0, 70}, clumps, s.law, 1e-5, load_job{s.list, loads});
+    std::vector<pebble_pair> loaded(70);
+    const load_job done = evaluate(s.list, {0, 70}, clumps, s.law, 1e-5, load_job{s.list, loads, loaded});
     CHECK(done.in_order);
     CHECK(done.next == 70);
     std::size_t touching = 0, booked = 0;
@@ -202,6 +206,7 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
         CHECK(norm(b.moment + cross(at - centre(j), f.force)) <= 1e-12 * norm(f.force));
         CHECK(a.dissipated == f.dissipated);
         CHECK(b.dissipated == 0.0);
+        CHECK(loaded[row] == pebble_pair{owner[i], owner[j]});
         touching += f.depth > 0.0, booked += f.dissipated > 0.0;
     }
     CHECK(touching > 20);

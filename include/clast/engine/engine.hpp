@@ -444,12 +444,11 @@ template <triaxial_policies P> class engine {
         force_row* rows;             ///< of the list, or nullptr if nobody looks at them
         load_sum* const acting = owner.acting_.data();
         contact_load<>* const shared_load = owner.shared_load_.data();
-        const pebble_pair* const pairs = owner.slow_.pairs.data();
 
         [[gnu::always_inline]] void adjust(strip_type& s, const contact_block& block) {
             if (!shared && is_long_list(owner.slow_)) // what take() will add to
                 for (std::size_t k = 0; k < block.size; ++k)
-                    __builtin_prefetch(&acting[owner.grains.body_of(pairs[block.row + k].j)], 1);
+                    __builtin_prefetch(&acting[at(s.bodies[block.at + k].j)], 1);
             if constexpr (periodic)
                 each_across(gathered, block, [&](std::size_t a, std::size_t k) {
                     const std::uint8_t image = owner.slow_.image[owner.across_[a]];
@@ -467,12 +466,13 @@ template <triaxial_policies P> class engine {
                 });
             if (rows != nullptr) keep_rows(s, block, rows);
         }
-        template <class Load> [[gnu::always_inline]] void operator()(std::size_t row, const Load& load) const {
+        template <class Load>
+        [[gnu::always_inline]] void operator()(std::size_t row, const pebble_pair& bodies, const Load& load) const {
             if (shared) {
                 load.store(shared_load[row]);
             } else {
-                load.add_to_i(acting[owner.grains.body_of(pairs[row].i)]);
-                load.add_to_j(acting[owner.grains.body_of(pairs[row].j)]);
+                load.add_to_i(acting[at(bodies.i)]);
+                load.add_to_j(acting[at(bodies.j)]);
             }
         }
         /// f(a, lane) for every contact of a block that goes across a face of a periodic cell.

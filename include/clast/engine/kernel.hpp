@@ -33,10 +33,12 @@ template <contacts::contact_law Law, class View> struct strip {
     using row = double[length];
     using arm_row = double[has_arms ? length : 1];
 
+    pebble_pair bodies[length];       ///< of i and j, by their numbers
     alignas(64) row dx, dy, dz;       ///< x_j - x_i (m)
     row vx, vy, vz;                   ///< v_j - v_i of the centres of the bodies (m/s)
     row ix, iy, iz, jx, jy, jz;       ///< w_i and w_j (rad/s)
     row radius_i, radius_j;           ///< m
+    row distance, inverse, reflect;   ///< lengths_of the contact, where they are made ahead
     arm_row aix, aiy, aiz;            ///< from the centre of the body to x_i (m)
     arm_row ajx, ajy, ajz;            ///< and to x_j
     alignas(64) row fx, fy, fz;       ///< force on i (N)
@@ -97,10 +99,14 @@ template <std::size_t N, class Law, class View>
         for (std::size_t l = 0; l < 4; ++l) {
             const pebble_pair& p = pairs[l];
             pi[l] = bytes_of(from.pebbles[p.i]), pj[l] = bytes_of(from.pebbles[p.j]);
-            if constexpr (strip<Law, View>::has_arms)
-                bi[l] = bytes_of(from.bodies[from.owner[p.i]]), bj[l] = bytes_of(from.bodies[from.owner[p.j]]);
-            else
+            if constexpr (strip<Law, View>::has_arms) {
+                const pebble_pair of{from.owner[p.i], from.owner[p.j]};
+                bi[l] = bytes_of(from.bodies[of.i]), bj[l] = bytes_of(from.bodies[of.j]);
+                s.bodies[k + l] = of;
+            } else {
                 bi[l] = pi[l], bj[l] = pj[l];
+                s.bodies[k + l] = p;
+            }
         }
         row i[4], j[4];
         load(pi, centre, i), load(pj, centre, j), difference(i, j, s.dx + k, s.dy + k, s.dz + k);
@@ -125,20 +131,44 @@ template <class View> [[gnu::always_inline]] inline void prefetch(const pebble_p
     }
 }
 
-/// Lane k of a strip. A function of its own: what a loop body declares itself, `omp simd` copies into arrays, and GCC
-/// then gives up. Operands are read late, so that few registers hold them.
-template <bool InPairs, class Law, class View>
-[[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, View>& s, std::size_t k,
-                                                        typename Law::history& history, const Law& law, double h) {
+/// What a contact waits for before all else: the first of its roots and two of its quotients.
+struct lengths {
+    vec3 centres;    ///< relative velocity of the two pebbles (m/s)
+    double distance; ///< |x_j - x_i| (m)
+    double inverse;  ///< 1 / distance
+    double reflect;  ///< 2 / |x_j - x_i at mid-step|^2
+};
+template <class Law, class View>
+[[gnu::always_inline, gnu::flatten]] inline lengths lengths_of(const strip<Law, View>& s, std::size_t k, double h) {
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]};
-    vec3 centres{s.vx[k], s.vy[k], s.vz[k]}; // of the pebbles, relative velocity
+    vec3 centres{s.vx[k], s.vy[k], s.vz[k]};
     if constexpr (strip<Law, View>::has_arms) {
         centres += cross(vec3{s.jx[k], s.jy[k], s.jz[k]}, vec3{s.ajx[k], s.ajy[k], s.ajz[k]});
         centres -= cross(vec3{s.ix[k], s.iy[k], s.iz[k]}, vec3{s.aix[k], s.aiy[k], s.aiz[k]});
     }
-    const vec3 mid = d - (0.5 * h) * centres;
-    const double distance = std::sqrt(norm2(d)), mid2 = norm2(mid);
-    const double inverse = 1.0 / distance, reflect = 2.0 / mid2;
+    const double distance = std::sqrt(norm2(d)), mid2 = norm2(d - (0.5 * h) * centres);
+    return {centres, distance, 1.0 / distance, 2.0 / mid2};
+}
+/// Makes them for a block; the velocity of the centres takes the place of that of the bodies.
+template <class Law, class View>
+[[gnu::always_inline, gnu::flatten]] inline void make_lengths(strip<Law, View>& s, std::size_t k, double h) {
+    const lengths of = lengths_of(s, k, h);
+    if constexpr (strip<Law, View>::has_arms) s.vx[k] = of.centres.x, s.vy[k] = of.centres.y, s.vz[k] = of.centres.z;
+    s.distance[k] = of.distance, s.inverse[k] = of.inverse, s.reflect[k] = of.reflect;
+}
+
+/// Lane k of a strip. A function of its own: what a loop body declares itself, `omp simd` copies into arrays, and GCC
+/// then gives up. Operands are read late, so that few registers hold them.
+template <bool InPairs, bool Ahead, class Law, class View>
+[[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, View>& s, std::size_t k,
+                                                        typename Law::history& history, const Law& law, double h) {
+    lengths of;
+    if constexpr (Ahead)
+        of = {{s.vx[k], s.vy[k], s.vz[k]}, s.distance[k], s.inverse[k], s.reflect[k]};
+    else
+        of = lengths_of(s, k, h);
+    const auto& [centres, distance, inverse, reflect] = of;
+    const vec3 d{s.dx[k], s.dy[k], s.dz[k]}, mid = d - (0.5 * h) * centres;
     const double overlap = s.radius_i[k] + s.radius_j[k] - distance;
     const double reach_i = s.radius_i[k] - 0.5 * overlap, reach_j = s.radius_j[k] - 0.5 * overlap;
     const vec3 normal = inverse * d;
@@ -168,13 +198,12 @@ template <bool InPairs, class Law, class View>
     if constexpr (InPairs) s.touching[k] = touching ? 1 : 0;
 }
 
-template <bool InPairs, class Law, class View>
-[[gnu::always_inline]] inline void answer(strip<Law, View>& s, std::size_t at, typename Law::history* history,
-                                          const Law& law, double h) {
+/// f(k) for the lanes of a block, side by side.
+template <class F> [[gnu::always_inline]] inline void each_lane(F&& f) {
 #if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD) // the latter comes with clast::fast and its -fopenmp-simd
 #pragma omp simd
 #endif
-    for (std::size_t k = 0; k < lanes; ++k) detail::answer<InPairs>(s, at + k, history[k], law, h);
+    for (std::size_t k = 0; k < lanes; ++k) f(k);
 }
 } // namespace detail
 
@@ -204,6 +233,8 @@ template <class Law, class View, class Job>
         constexpr std::size_t ahead = 2, behind = 1; // blocks; measured
         static_assert(ahead + behind < strip<Law, View>::blocks);
         // clumps need too many registers for that
+        // Registers of eight leave so few instructions that a processor can look from one block into the next.
+        constexpr bool lengths_ahead = width.of_loops == 8;
         constexpr bool in_pairs = width.of_loops == 4 && !strip<Law, View>::has_arms;
         Job work = job;
         strip<Law, View> s;
@@ -215,6 +246,9 @@ template <class Law, class View, class Job>
             return contact_block{b % strip<Law, View>::blocks * lanes, row, std::min(lanes, rows.end - row)};
         };
         for (std::size_t b = 0; b < blocks + ahead + behind; ++b) {
+            if (lengths_ahead && b > 0 && b <= blocks)
+                detail::each_lane([&, at = block(b - 1).at ](std::size_t k)
+                                      __attribute__((always_inline)) { detail::make_lengths(s, at + k, h); });
             if (b < blocks) {
                 const contact_block next = block(b);
                 const pebble_pair* pairs = all_pairs + next.row;
@@ -232,7 +266,10 @@ template <class Law, class View, class Job>
                 history* const own = remembers ? all_histories + now.row : past;
                 if (partial)
                     for (std::size_t k = 0; k < lanes; ++k) past[k] = own[std::min(k, now.size - 1)];
-                detail::answer<in_pairs>(s, now.at, partial ? past : own, law, h);
+                history* const of = partial ? past : own;
+                detail::each_lane([&](std::size_t k) __attribute__((always_inline)) {
+                    detail::answer<in_pairs, lengths_ahead>(s, now.at + k, of[k], law, h);
+                });
                 if (partial)
                     for (std::size_t k = 0; k < now.size; ++k) own[k] = past[k];
             }
@@ -250,7 +287,7 @@ template <class Law, class View>
             {s.fx[k], s.fy[k], s.fz[k]}, s.depth[k], {s.nx[k], s.ny[k], s.nz[k]}, s.dissipated[k]};
 }
 
-/// Calls f(row, contact_load) for every contact of a block, in order; f should be always_inline.
+/// Calls f(row, bodies of i and j, contact_load) for every contact of a block, in order; f should be always_inline.
 template <std::size_t N, std::size_t Loop, class Law, class View, class F>
 [[gnu::always_inline]] inline void each_load(register_width<N, Loop>, const strip<Law, View>& s,
                                              const contact_block& block, const F& f) {
@@ -263,10 +300,10 @@ template <std::size_t N, std::size_t Loop, class Law, class View, class F>
         quad<N>::records(s.tjx + k, s.tjy + k, s.tjz + k, nothing, moment_j);
         if (done + 4 <= block.size) // of constant length, so that loads stay in registers
             for (std::size_t l = 0; l < 4; ++l)
-                f(block.row + done + l, contact_load<N>{force[l], moment_i[l], moment_j[l]});
+                f(block.row + done + l, s.bodies[k + l], contact_load<N>{force[l], moment_i[l], moment_j[l]});
         else
             for (std::size_t l = 0; done + l < block.size; ++l)
-                f(block.row + done + l, contact_load<N>{force[l], moment_i[l], moment_j[l]});
+                f(block.row + done + l, s.bodies[k + l], contact_load<N>{force[l], moment_i[l], moment_j[l]});
     }
 }
 
