@@ -128,7 +128,7 @@ template <several L> L ratio(const L& a, const L& b) {
     return b > zero ? a / b : one;
 }
 
-/// Cartesian vectors of eight items, or four.
+/// Cartesian vectors of eight items, or fewer.
 template <several L> struct vec3_of { L x, y, z; };
 template <several L> vec3_of<L> operator+(const vec3_of<L>& a, const vec3_of<L>& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -144,7 +144,7 @@ template <several L> L norm2(const vec3_of<L>& a) { return dot(a, a); }
 template <several L> vec3_of<L> cross(const vec3_of<L>& a, const vec3_of<L>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Vectors stored as x, y, z blocks of eight; of four those in the first half of each block.
+/// Vectors stored as x, y, z blocks of eight; of fewer those at the beginning of each block.
 template <several L> vec3_of<L> load3(const double* p) {
     return {load<L>(p), load<L>(p + lanes), load<L>(p + 2 * lanes)};
 }

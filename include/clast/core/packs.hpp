@@ -67,7 +67,7 @@ template <std::size_t N> class quad {
         for (std::size_t k = 0; k < parts; ++k) product.part_[k] = a.part_[k] * b.part_[k];
         return product;
     }
-    /// The same with the fourth number of another.
+    /// This one with the fourth number of another.
     [[gnu::always_inline]] quad with_fourth_of(const quad& b) const {
         quad q = *this;
         if constexpr (N == 4)
@@ -76,7 +76,7 @@ template <std::size_t N> class quad {
             q.part_[1] = __builtin_shufflevector(part_[1], b.part_[1], 0, 3);
         return q;
     }
-    /// Absolute values, and signs (0 for 0).
+    /// Absolute values (0 may become -0), and signs (0 for 0).
     [[gnu::always_inline]] friend quad magnitude(const quad& a) {
         quad size;
         for (std::size_t k = 0; k < parts; ++k) size.part_[k] = clast::magnitude(a.part_[k]);
@@ -115,8 +115,8 @@ template <std::size_t N> class quad {
     }
 
   private:
-    /// Half way to columns: the even and the odd numbers of two records side by side. Compilers make the same half of
-    /// the same records only once.
+    /// Half way to columns: the even and the odd numbers of two records side by side. To ask for columns of the same
+    /// records twice costs nothing: compilers see that the halves are the same.
     struct interleaved {
         pack even[2][parts], odd[2][parts];
 
@@ -134,7 +134,7 @@ template <std::size_t N> class quad {
         }
         template <int C> [[gnu::always_inline]] void column(double* to) const {
             const auto& half = C % 2 == 0 ? even : odd;
-            constexpr int at = C / 2 * 2; // of the two numbers of the first two records
+            constexpr int at = C / 2 * 2; // where the two numbers of a column stand in each half
             if constexpr (N == 4)
                 clast::store<pack>(to, __builtin_shufflevector(half[0][0], half[1][0], at, at + 1, at + 4, at + 5));
             else

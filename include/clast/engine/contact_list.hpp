@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pebbles as contacts see them, the pairs that touch or may touch soon, the history of their contact, and the rows that
-// they write.
+// they write and the loads that they add to.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct clump_view {
     const body_motion* bodies;
 };
 
-/// What one contact exerts in this step; bodies sum their rows in a fixed order. The force acts in the middle of the
+/// What one contact exerts in this step; balls sum their rows in a fixed order. The force acts in the middle of the
 /// overlap: at x_i + (r_i - depth / 2) normal, which is x_j - (r_j - depth / 2) normal.
 struct force_row {
     vec3 force;              ///< on pebble i (N); pebble j takes the opposite

@@ -7,7 +7,8 @@
 // not vectorise works as well, one contact after the other. Every block has the same 8 lanes, so a contact is computed
 // by the same instructions wherever it stands: lists may be cut anywhere without changing a bit. Between pebbles and
 // arrays stand transposes of small blocks (core/packs.hpp). A law waits for its roots and quotients most of the time;
-// so the blocks after it are gathered and the one before it is handed on meanwhile.
+// so the blocks after it are gathered, where registers are wide their distances found, and the one before it is handed
+// on meanwhile.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +34,9 @@ template <contacts::contact_law Law, class View> struct strip {
     using row = double[length];
     using arm_row = double[has_arms ? length : 1];
 
-    pebble_pair bodies[length];       ///< of i and j, by their numbers
+    pebble_pair bodies[length];       ///< numbers of the bodies of i and j, in this order
     alignas(64) row dx, dy, dz;       ///< x_j - x_i (m)
-    row vx, vy, vz;                   ///< v_j - v_i of the centres of the bodies (m/s)
+    row vx, vy, vz;                   ///< v_j - v_i of the bodies, behind make_lengths of the pebbles (m/s)
     row ix, iy, iz, jx, jy, jz;       ///< w_i and w_j (rad/s)
     row radius_i, radius_j;           ///< m
     row distance, inverse, reflect;   ///< lengths_of the contact, where they are made ahead
@@ -46,9 +47,9 @@ template <contacts::contact_law Law, class View> struct strip {
     row tix, tiy, tiz, tjx, tjy, tjz; ///< moments on the bodies of i and j about their centres (N m)
     row depth;                        ///< overlap (m), >= 0
     row dissipated;                   ///< J
-    /// Whether a pair touches: written where registers hold 4 doubles only. A vectorised loop does as many lanes at
-    /// once as numbers of its smallest type fit in a register, here 8 in two registers each, and while one waits for a
-    /// root or a quotient the other goes on.
+    /// Whether a pair of spheres touches: written where registers hold 4 doubles only. A vectorised loop does as many
+    /// lanes at once as numbers of its smallest type fit in a register, here 8 in two registers each, and while one
+    /// waits for a root or a quotient the other goes on.
     std::int32_t touching[length];
 };
 
@@ -93,7 +94,7 @@ template <std::size_t N, class Law, class View>
         for (std::size_t l = 0; l < 4; ++l) d[l] = b[l] - a[l];
         row::columns(d, x, y, z);
     };
-    constexpr std::size_t centre = 0, velocity = 32, spin = 64; // bytes, in pebble_motion and in body_motion
+    constexpr std::size_t centre = 0, velocity = quad_size, spin = 2 * quad_size; // in pebble_ and body_motion
     for (std::size_t k = at; k < at + lanes; k += 4, pairs += 4) {
         const std::byte *pi[4], *pj[4], *bi[4], *bj[4]; // pebbles and bodies
         for (std::size_t l = 0; l < 4; ++l) {
@@ -131,15 +132,17 @@ template <class View> [[gnu::always_inline]] inline void prefetch(const pebble_p
     }
 }
 
-/// What a contact waits for before all else: the first of its roots and two of its quotients.
+/// What a contact waits for before all else, the first of its roots and two of its quotients, and what they rest on.
 struct lengths {
     vec3 centres;    ///< relative velocity of the two pebbles (m/s)
     double distance; ///< |x_j - x_i| (m)
     double inverse;  ///< 1 / distance
     double reflect;  ///< 2 / |x_j - x_i at mid-step|^2
 };
-template <class Law, class View>
+/// Of lane k; Made: make_lengths has been there.
+template <bool Made, class Law, class View>
 [[gnu::always_inline, gnu::flatten]] inline lengths lengths_of(const strip<Law, View>& s, std::size_t k, double h) {
+    if constexpr (Made) return {{s.vx[k], s.vy[k], s.vz[k]}, s.distance[k], s.inverse[k], s.reflect[k]};
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]};
     vec3 centres{s.vx[k], s.vy[k], s.vz[k]};
     if constexpr (strip<Law, View>::has_arms) {
@@ -149,10 +152,10 @@ template <class Law, class View>
     const double distance = std::sqrt(norm2(d)), mid2 = norm2(d - (0.5 * h) * centres);
     return {centres, distance, 1.0 / distance, 2.0 / mid2};
 }
-/// Makes them for a block; the velocity of the centres takes the place of that of the bodies.
+/// Keeps them in the strip; the velocity of the pebbles takes the place of that of the bodies.
 template <class Law, class View>
 [[gnu::always_inline, gnu::flatten]] inline void make_lengths(strip<Law, View>& s, std::size_t k, double h) {
-    const lengths of = lengths_of(s, k, h);
+    const lengths of = lengths_of<false>(s, k, h);
     if constexpr (strip<Law, View>::has_arms) s.vx[k] = of.centres.x, s.vy[k] = of.centres.y, s.vz[k] = of.centres.z;
     s.distance[k] = of.distance, s.inverse[k] = of.inverse, s.reflect[k] = of.reflect;
 }
@@ -162,12 +165,7 @@ template <class Law, class View>
 template <bool InPairs, bool Ahead, class Law, class View>
 [[gnu::always_inline, gnu::flatten]] inline void answer(strip<Law, View>& s, std::size_t k,
                                                         typename Law::history& history, const Law& law, double h) {
-    lengths of;
-    if constexpr (Ahead)
-        of = {{s.vx[k], s.vy[k], s.vz[k]}, s.distance[k], s.inverse[k], s.reflect[k]};
-    else
-        of = lengths_of(s, k, h);
-    const auto& [centres, distance, inverse, reflect] = of;
+    const auto [centres, distance, inverse, reflect] = lengths_of<Ahead>(s, k, h);
     const vec3 d{s.dx[k], s.dy[k], s.dz[k]}, mid = d - (0.5 * h) * centres;
     const double overlap = s.radius_i[k] + s.radius_j[k] - distance;
     const double reach_i = s.radius_i[k] - 0.5 * overlap, reach_j = s.radius_j[k] - 0.5 * overlap;
@@ -232,9 +230,9 @@ template <class Law, class View, class Job>
     return with_widest_registers([=](auto width) __attribute__((always_inline)) {
         constexpr std::size_t ahead = 2, behind = 1; // blocks; measured
         static_assert(ahead + behind < strip<Law, View>::blocks);
-        // clumps need too many registers for that
-        // Registers of eight leave so few instructions that a processor can look from one block into the next.
+        // with eight numbers in a register a block is so few instructions that a processor looks into the next one
         constexpr bool lengths_ahead = width.of_loops == 8;
+        // clumps need too many registers for that
         constexpr bool in_pairs = width.of_loops == 4 && !strip<Law, View>::has_arms;
         Job work = job;
         strip<Law, View> s;
@@ -246,9 +244,10 @@ template <class Law, class View, class Job>
             return contact_block{b % strip<Law, View>::blocks * lanes, row, std::min(lanes, rows.end - row)};
         };
         for (std::size_t b = 0; b < blocks + ahead + behind; ++b) {
-            if (lengths_ahead && b > 0 && b <= blocks)
-                detail::each_lane([&, at = block(b - 1).at ](std::size_t k)
-                                      __attribute__((always_inline)) { detail::make_lengths(s, at + k, h); });
+            if constexpr (lengths_ahead)
+                if (b > 0 && b <= blocks)
+                    detail::each_lane([&, at = block(b - 1).at ](std::size_t k)
+                                          __attribute__((always_inline)) { detail::make_lengths(s, at + k, h); });
             if (b < blocks) {
                 const contact_block next = block(b);
                 const pebble_pair* pairs = all_pairs + next.row;

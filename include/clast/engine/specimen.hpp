@@ -7,7 +7,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -400,7 +399,7 @@ struct sphere_specimen {
     double surface_speed(std::size_t b, const vec3& rate) const {
         return norm(pebbles[b].v - scale(rate, pebbles[b].x)); // to spin brings a sphere no nearer
     }
-    /// As for clumps; there is no pebble to be placed.
+    /// As for clumps; there is no pebble to be placed, and `further` is not asked.
     template <class Further>
     margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
                        const allowance<reference>& allowed, Further&&) {
