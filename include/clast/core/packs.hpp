@@ -34,6 +34,10 @@ template <std::size_t N> class quad {
             q.part_[k] = clast::load<pack>(static_cast<const std::byte*>(from) + k * sizeof(pack));
         return q;
     }
+    /// Of four records, what stands `where` bytes behind their beginnings.
+    [[gnu::always_inline]] static void load(const std::byte* const (&records)[4], std::size_t where, quad (&r)[4]) {
+        for (std::size_t l = 0; l < 4; ++l) r[l] = load(records[l] + where);
+    }
     [[gnu::always_inline]] void store(void* to) const {
         for (std::size_t k = 0; k < parts; ++k) clast::store(static_cast<std::byte*>(to) + k * sizeof(pack), part_[k]);
     }

@@ -84,10 +84,6 @@ template <std::size_t N, class Law, class View>
 [[gnu::always_inline]] inline void gather(strip<Law, View>& s, std::size_t at, const pebble_pair* pairs,
                                           const View& from) {
     using row = quad<N>; // whole blocks of four numbers are loaded and subtracted, and transposed last
-    constexpr auto load =
-        [](const std::byte* const(&records)[4], std::size_t where, row(&rows)[4]) __attribute__((always_inline)) {
-        for (std::size_t l = 0; l < 4; ++l) rows[l] = row::load(records[l] + where);
-    };
     constexpr auto difference =
         [](const row(&a)[4], const row(&b)[4], double* x, double* y, double* z) __attribute__((always_inline)) {
         row d[4];
@@ -110,16 +106,16 @@ template <std::size_t N, class Law, class View>
             }
         }
         row i[4], j[4];
-        load(pi, centre, i), load(pj, centre, j), difference(i, j, s.dx + k, s.dy + k, s.dz + k);
+        row::load(pi, centre, i), row::load(pj, centre, j), difference(i, j, s.dx + k, s.dy + k, s.dz + k);
         row::fourth_column(i, s.radius_i + k), row::fourth_column(j, s.radius_j + k);
         if constexpr (strip<Law, View>::has_arms) {
             row body[4];
-            load(bi, centre, body), difference(body, i, s.aix + k, s.aiy + k, s.aiz + k);
-            load(bj, centre, body), difference(body, j, s.ajx + k, s.ajy + k, s.ajz + k);
+            row::load(bi, centre, body), difference(body, i, s.aix + k, s.aiy + k, s.aiz + k);
+            row::load(bj, centre, body), difference(body, j, s.ajx + k, s.ajy + k, s.ajz + k);
         }
-        load(bi, velocity, i), load(bj, velocity, j), difference(i, j, s.vx + k, s.vy + k, s.vz + k);
-        load(bi, spin, i), row::columns(i, s.ix + k, s.iy + k, s.iz + k);
-        load(bj, spin, j), row::columns(j, s.jx + k, s.jy + k, s.jz + k);
+        row::load(bi, velocity, i), row::load(bj, velocity, j), difference(i, j, s.vx + k, s.vy + k, s.vz + k);
+        row::load(bi, spin, i), row::columns(i, s.ix + k, s.iy + k, s.iz + k);
+        row::load(bj, spin, j), row::columns(j, s.jx + k, s.jy + k, s.jz + k);
     }
 }
 

@@ -293,7 +293,7 @@ struct specimen {
             row r[4];
             const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,
                                    double* c) __attribute__((always_inline)) {
-                for (std::size_t l = 0; l < 4; ++l) r[l] = row::load(records[l] + where);
+                row::load(records, where, r);
                 row::columns(r, a, b, c);
             };
             each(load, 0, s.fx + k, s.fy + k, s.fz + k);
