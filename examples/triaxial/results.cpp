@@ -40,7 +40,7 @@ input_error unusable(const options& o, const std::string& why, const std::string
 
 /// Views on disk: padding and enums one by one, so that the file does not depend on the compiler.
 struct stored_view {
-    clast::specimen_view view;
+    specimen_view view;
 
     template <class A> void archive(A& a) {
         auto pebbles = static_cast<std::uint64_t>(view.pebbles.size()),
@@ -224,10 +224,10 @@ void result_folder::snapshot(double time, std::span<const clast::pebble_view> pe
     vtk_->write(time, pebbles, facets);
 }
 
-void result_folder::start_of_shear(const clast::specimen_view& view) {
+void result_folder::start_of_shear(const specimen_view& view) {
     clast::save_checkpoint(folder_ / "plots" / "data" / "view_start.bin", view_fingerprint, stored_view{view});
 }
-void result_folder::end_of_shear(const clast::specimen_view& view) {
+void result_folder::end_of_shear(const specimen_view& view) {
     clast::save_checkpoint(folder_ / "plots" / "data" / "view_end.bin", view_fingerprint, stored_view{view});
 }
 
@@ -299,9 +299,9 @@ void result_folder::finish(const run_facts& facts) {
     const summary_numbers n = summarise(rows_);
     write_summary(facts, n);
 
-    clast::plot_report report;
+    plot_report report;
     if (options_.plots) {
-        clast::plot_request request;
+        plot_request request;
         request.series = folder_ / "series.csv";
         request.events = folder_ / "events.csv";
         request.stages = shear_stages;
@@ -314,7 +314,7 @@ void result_folder::finish(const run_facts& facts) {
         };
         request.start = view("view_start.bin");
         request.end = view("view_end.bin");
-        report = clast::draw_plots(folder_ / "plots", request);
+        report = draw_plots(folder_ / "plots", request);
     }
 
     fmt::print("\n{} {}, {} membrane, {}: {} grains, {} pebbles, {} steps in {}\n",

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include <clast/io/csv.hpp>
-#include <clast/io/plots.hpp>
 #include <clast/io/vtk.hpp>
 #include <clast/measure/sample.hpp>
 
 #include "options.hpp"
+#include "plots.hpp"
 
 namespace triaxial {
 
@@ -98,8 +98,8 @@ class result_folder {
     /// One ParaView snapshot at model time (s).
     void snapshot(double time, std::span<const clast::pebble_view> pebbles, std::span<const clast::facet_view> facets);
     /// The specimen for the figures, kept on disk until finish().
-    void start_of_shear(const clast::specimen_view& view);
-    void end_of_shear(const clast::specimen_view& view);
+    void start_of_shear(const specimen_view& view);
+    void end_of_shear(const specimen_view& view);
 
     /// To be stored in the checkpoint that is written next.
     [[nodiscard]] result_position position() const;

@@ -91,12 +91,12 @@ template <class Test> class watcher : public clast::observer {
 
   private:
     double snapshot_strain() const { return options_.strain / std::max(options_.snapshots, 1); }
-    clast::specimen_view view() {
+    specimen_view view() {
         return {test_.protocol().axial_strain(), test_.protocol().pebbles(), test_.protocol().facets()};
     }
     void snapshot() {
         if (options_.snapshots <= 0) return;
-        const clast::specimen_view v = view();
+        const specimen_view v = view();
         folder_.snapshot(test_.sim().time(), v.pebbles, v.facets);
     }
     std::string end_of(const std::string& name) const {

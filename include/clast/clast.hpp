@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that a simulator needs. Files (CSV, ParaView, checkpoints, plots) are in clast/io and included apart.
+// Everything that a simulator needs. Files (CSV, ParaView, checkpoints) are in clast/io and included apart.
 #pragma once
 
 #include <clast/boundaries/box.hpp>

@@ -154,7 +154,7 @@ TEST_CASE("the views for the figures survive on disk") {
     const folder f;
     const options o = f.run();
     result_folder r(o);
-    clast::specimen_view view{0.1, pebbles(), {{{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}}}, 5.0, 6.0, 7, 8}}};
+    specimen_view view{0.1, pebbles(), {{{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {1, 1, 1}}}, 5.0, 6.0, 7, 8}}};
     r.start_of_shear(view);
     stored_view back;
     clast::load_checkpoint(o.out / "plots" / "data" / "view_start.bin", view_fingerprint, back);

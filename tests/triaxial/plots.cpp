@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <clast/io/plots.hpp>
+// The figures of examples/triaxial, compiled into this test.
+#include "../../examples/triaxial/plots.cpp"
+#include "../../examples/triaxial/render.cpp"
 
 #include <cstdlib>
 
 #include <catch.hpp>
 
 using namespace clast;
+using namespace triaxial;
 namespace fs = std::filesystem;
 
 namespace {
@@ -41,7 +44,7 @@ std::vector<facet_view> ring(int index, double z0, double z1, std::array<double,
     return f;
 }
 
-std::array<int, 3> pixel(const detail::raster& p, int i, int k) {
+std::array<int, 3> pixel(const raster& p, int i, int k) {
     std::array<int, 3> c{};
     for (std::size_t j = 0; j < 3; ++j)
         c[j] = static_cast<unsigned char>(p.bytes[3 * (static_cast<std::size_t>(k) * static_cast<std::size_t>(p.width) +
@@ -121,7 +124,7 @@ TEST_CASE("the membrane profile has the radii of each ring and leaves platens ou
 TEST_CASE("the picture shows the nearer sphere in the colour of its state") {
     const std::vector<pebble_view> two{{{0, 0.3, 0}, 0.3, 0, 0, pebble_state::clump, {}, {}},
                                        {{0, -0.3, 0}, 0.15, 1, 1, pebble_state::bonded, {}, {}}};
-    const auto picture = detail::render_side(two, {-0.5, 0.5, -0.5, 0.5}, 100);
+    const auto picture = render_side(two, {-0.5, 0.5, -0.5, 0.5}, 100);
     REQUIRE(picture.width == 100);
     REQUIRE(picture.bytes.size() == 30000);
     REQUIRE(pixel(picture, 2, 2) == std::array<int, 3>{255, 255, 255});
@@ -137,22 +140,21 @@ TEST_CASE("the picture shows the nearer sphere in the colour of its state") {
 TEST_CASE("a pebble that is not finite does not stop the picture") {
     const std::vector<pebble_view> odd{{{std::nan(""), 0, 0}, 0.3, 0, 0, pebble_state::clump, {}, {}},
                                        {{1e30, 0, 0}, 0.3, 1, 1, pebble_state::clump, {}, {}}};
-    REQUIRE(pixel(detail::render_side(odd, {-0.5, 0.5, -0.5, 0.5}, 20), 10, 10) == std::array<int, 3>{255, 255, 255});
+    REQUIRE(pixel(render_side(odd, {-0.5, 0.5, -0.5, 0.5}, 20), 10, 10) == std::array<int, 3>{255, 255, 255});
 }
 
 TEST_CASE("a cut through a sphere is a circle of the right radius") {
     const std::vector<pebble_view> one{{{0.1, 0.03, 0.2}, 0.05, 0, 0, pebble_state::clump, {}, {}}};
-    REQUIRE(detail::section_circles(one, 1, 0.0, 0.01) ==
-            "10,20,4,2956830\n10,20,3,13219996\n"); // rim, then fill; 5-4-3
-    REQUIRE(detail::section_circles(one, 1, 0.09, 0.01) == "NaN,NaN,NaN,0\n");
-    REQUIRE(detail::section_circles(one, 2, 0.2, 0.0).starts_with("10,3,5,"));
+    REQUIRE(section_circles(one, 1, 0.0, 0.01) == "10,20,4,2956830\n10,20,3,13219996\n"); // rim, then fill; 5-4-3
+    REQUIRE(section_circles(one, 1, 0.09, 0.01) == "NaN,NaN,NaN,0\n");
+    REQUIRE(section_circles(one, 2, 0.2, 0.0).starts_with("10,3,5,"));
 }
 
 TEST_CASE("a cut through a ring of tiles is a segment per tile") {
-    const auto text = detail::section_wall(ring(0, 0.0, 0.4, {0.3, 0.3, 0.3, 0.3}), 2, 0.1);
+    const auto text = section_wall(ring(0, 0.0, 0.4, {0.3, 0.3, 0.3, 0.3}), 2, 0.1);
     REQUIRE(std::count(text.begin(), text.end(), '\n') == 12);
     REQUIRE(text.find("30,10") != std::string::npos);
-    REQUIRE(detail::section_wall(ring(0, 0.0, 0.4, {0.3, 0.3, 0.3, 0.3}), 2, 0.5) == "NaN,NaN\n");
+    REQUIRE(section_wall(ring(0, 0.0, 0.4, {0.3, 0.3, 0.3, 0.3}), 2, 0.5) == "NaN,NaN\n");
 }
 
 TEST_CASE("all figures are drawn and their scripts stay") {
@@ -160,7 +162,7 @@ TEST_CASE("all figures are drawn and their scripts stay") {
     const plot_report report = draw_plots(f.path / "plots", small_test(f.path));
     for (const char* figure : {"stress", "volume", "fractures", "rosette", "membrane", "specimen", "section"})
         REQUIRE(fs::exists(f.path / "plots" / (std::string(figure) + ".gp")));
-    if (detail::run_gnuplot(f.path, "/dev/null") == 127) {
+    if (run_gnuplot(f.path, "/dev/null") == 127) {
         WARN("gnuplot is missing: pictures were not tested");
         return;
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The gnuplot scripts of the figures; @NAME@ is filled in by plots.hpp.
+// The gnuplot scripts of the figures; @NAME@ is filled in by plots.cpp.
 #pragma once
 
 #include <string_view>
 
-namespace clast::detail {
+namespace triaxial {
 
 // clang-format off
 inline constexpr std::string_view style_script = R"gp(# Look of all figures. A figure script sets `kind` (svg or png), `w` and `h` (points) and loads this file.
@@ -23,31 +23,38 @@ set datafile separator comma
 blue = "#0072b2"; red = "#d55e00"; green = "#009e73"; grey = "#707070"; dark = "#303030"
 )gp";
 
-inline constexpr std::string_view stress_script = R"gp(# Deviatoric stress against axial strain, from series.csv. Redraw: gnuplot stress.gp
+/// The script of a curve of series.csv.
+inline constexpr std::string_view curve_script = R"gp(# @TITLE@. Redraw: gnuplot @FIGURE@.gp
 wanted(s) = @WANTED@
 do for [kind in "svg png"] {
     w = 640; h = 460
     load "style.gp"
     set datafile columnheaders
-    set output "stress.".kind
-    set xlabel "axial strain ε_a  (%)"
+    set output "@FIGURE@.".kind
+@BODY@    unset output
+}
+)gp";
+
+/// What such a curve fills in.
+struct curve_figure {
+    std::string_view name; ///< of its files
+    std::string_view title;
+    std::string_view body; ///< axes and curves
+};
+
+inline constexpr curve_figure stress_figure{
+    "stress", "Deviatoric stress against axial strain, from series.csv",
+    R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "deviatoric stress q = σ_1 − σ_3  (MPa)"
     set xrange [0:*]
     set yrange [@QMIN@:@QTOP@]
     set label 1 sprintf("peak %.2f MPa at %.1f %%", @QPEAK@, @EPEAK@) at @EPEAK@, @QPEAK@ point pointtype 7 pointsize 0.6 linecolor rgb red offset character @LABEL_X@, 0.9 @LABEL_SIDE@ textcolor rgb red front noenhanced
     plot "@SERIES@" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("q_Pa")/1e6) with lines linewidth 1.8 linecolor rgb blue notitle
-    unset output
-}
-)gp";
+)gp"};
 
-inline constexpr std::string_view volume_script = R"gp(# Volumetric strain against axial strain, dilation positive (series.csv has compression positive). Redraw: gnuplot volume.gp
-wanted(s) = @WANTED@
-do for [kind in "svg png"] {
-    w = 640; h = 460
-    load "style.gp"
-    set datafile columnheaders
-    set output "volume.".kind
-    set xlabel "axial strain ε_a  (%)"
+inline constexpr curve_figure volume_figure{
+    "volume", "Volumetric strain against axial strain, dilation positive (series.csv has compression positive)",
+    R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "volumetric strain, dilation positive  (%)"
     set xrange [0:*]
     set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead linecolor rgb grey linewidth 0.9 dashtype 3 back
@@ -55,18 +62,11 @@ do for [kind in "svg png"] {
     set label 2 "contraction" at graph 0.985, first 0 right offset 0, -0.7 textcolor rgb grey font ",11"
     set yrange [@VMIN@:@VMAX@]
     plot "@SERIES@" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(-100*column("volumetric_strain")) with lines linewidth 1.8 linecolor rgb blue notitle
-    unset output
-}
-)gp";
+)gp"};
 
-inline constexpr std::string_view fractures_script = R"gp(# Broken bonds and replaced clumps, cumulative, from series.csv. Redraw: gnuplot fractures.gp
-wanted(s) = @WANTED@
-do for [kind in "svg png"] {
-    w = 640; h = 460
-    load "style.gp"
-    set datafile columnheaders
-    set output "fractures.".kind
-    set xlabel "axial strain ε_a  (%)"
+inline constexpr curve_figure fractures_figure{
+    "fractures", "Broken bonds and replaced clumps, cumulative, from series.csv",
+    R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "count since the start of the test"
     set xrange [0:*]
     set yrange [0:@TOP@]
@@ -74,25 +74,16 @@ do for [kind in "svg png"] {
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_tension")) with steps linewidth 1.6 linecolor rgb blue title "in tension", \
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_shear")) with steps linewidth 1.6 linecolor rgb red title "in shear", \
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("replaced")) with steps linewidth 2.2 linecolor rgb green title "replaced grains"
-    unset output
-}
-)gp";
+)gp"};
 
-inline constexpr std::string_view compression_script = R"gp(# Void ratio against mean stress, from series.csv. Redraw: gnuplot compression.gp
-wanted(s) = @WANTED@
-do for [kind in "svg png"] {
-    w = 640; h = 460
-    load "style.gp"
-    set datafile columnheaders
-    set output "compression.".kind
-    set xlabel "mean stress p'  (kPa)"
+inline constexpr curve_figure compression_figure{
+    "compression", "Void ratio against mean stress, from series.csv",
+    R"gp(    set xlabel "mean stress p'  (kPa)"
     set ylabel "void ratio e"
     set logscale x
     set xrange [1:*]
     plot "@SERIES@" using (wanted(strcol("stage")) && column("p_Pa") >= 1e3 ? column("p_Pa")/1e3 : NaN):(column("void_ratio")) with lines linewidth 1.8 linecolor rgb blue notitle
-    unset output
-}
-)gp";
+)gp"};
 
 inline constexpr std::string_view membrane_script = R"gp(# Shape of the membrane at the start and at the end of shear. Redraw: gnuplot membrane.gp
 # data/membrane_*.csv: x_cm,z_cm; left: radius over height, band from the smallest to the largest radius of a ring
@@ -184,4 +175,4 @@ do for [kind in "svg png"] {
 
 // clang-format on
 
-} // namespace clast::detail
+} // namespace triaxial

@@ -1,106 +1,71 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a finished test, drawn by gnuplot from the result files. The scripts and their data stay in the folder,
-// so that a user can change and redraw them: `cd plots && gnuplot stress.gp`.
-#pragma once
+#include "plots.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <filesystem>
+#include <cstddef>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <clast/core/vector.hpp>
 #include <clast/io/csv.hpp>
 #include <clast/io/detail/atomic_file.hpp>
-#include <clast/io/detail/plot_scripts.hpp>
-#include <clast/io/detail/render.hpp>
-#include <clast/measure/sample.hpp>
 
-namespace clast {
+#include "plot_scripts.hpp"
+#include "render.hpp"
 
-/// The specimen at one instant, as the pictures need it. Lengths in m; the axis of the specimen is x = y = 0.
-struct specimen_view {
-    double axial_strain = 0.0;
-    std::vector<pebble_view> pebbles;
-    std::vector<facet_view> facets;
-};
+namespace triaxial {
 
-/// What is to be drawn.
-struct plot_request {
-    std::filesystem::path series;                       ///< series.csv
-    std::filesystem::path events;                       ///< events.csv
-    specimen_view start;                                ///< at the start of shear (empty: not drawn)
-    specimen_view end;                                  ///< at the end of shear (empty: not drawn)
-    std::vector<std::string> stages{"shear", "unload"}; ///< stages that are drawn against axial strain
-    std::vector<std::string> loading{"consolidate"};    ///< stages whose compression curve is drawn
-};
+using clast::facet_view;
+using clast::fracture_event;
+using clast::pebble_state;
+using clast::pebble_view;
+using clast::sample;
+using clast::vec3;
 
-/// What was drawn, and what could not be.
-struct plot_report {
-    std::vector<std::filesystem::path> pictures; ///< .svg and .png
-    std::vector<std::string> problems;           ///< sentences for the user; empty when all went well
-};
+std::int64_t rosette::total() const {
+    std::int64_t n = 0;
+    for (std::size_t i = 0; i < tension.size(); ++i) n += tension[i] + shear[i];
+    return n;
+}
 
-/// Counts of events by azimuth about the specimen axis (paper Figs. 9 and 10, read as positions: physics of the rosette
-/// is open in the paper), in equal sectors from 0 anticlockwise.
-struct rosette {
-    std::vector<std::int64_t> tension;
-    std::vector<std::int64_t> shear;
+double rosette::unevenness() const {
+    const double sectors = static_cast<double>(tension.size());
+    const double mean = static_cast<double>(total()) / sectors;
+    if (mean <= 0.0) return 0.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < tension.size(); ++i)
+        square += std::pow(static_cast<double>(tension[i] + shear[i]) - mean, 2) / sectors;
+    return std::sqrt(square) / mean - 1.0 / std::sqrt(mean);
+}
 
-    /// Events in all sectors.
-    [[nodiscard]] std::int64_t total() const {
-        std::int64_t n = 0;
-        for (std::size_t i = 0; i < tension.size(); ++i) n += tension[i] + shear[i];
-        return n;
-    }
-    /// Coefficient of variation of the sector counts beyond that of chance (Poisson): 0 for an even rosette.
-    [[nodiscard]] double unevenness() const {
-        const double sectors = static_cast<double>(tension.size());
-        const double mean = static_cast<double>(total()) / sectors;
-        if (mean <= 0.0) return 0.0;
-        double square = 0.0;
-        for (std::size_t i = 0; i < tension.size(); ++i)
-            square += std::pow(static_cast<double>(tension[i] + shear[i]) - mean, 2) / sectors;
-        return std::sqrt(square) / mean - 1.0 / std::sqrt(mean);
-    }
-};
-
-/// Sorts events into `sectors` of azimuth.
-inline rosette make_rosette(std::span<const fracture_event> events, int sectors = 36) {
+rosette make_rosette(std::span<const fracture_event> events, int sectors) {
     rosette r{std::vector<std::int64_t>(static_cast<std::size_t>(sectors)),
               std::vector<std::int64_t>(static_cast<std::size_t>(sectors))};
     for (const fracture_event& e : events) {
         double turn = std::atan2(e.position.y, e.position.x) / (2.0 * std::numbers::pi);
         if (turn < 0.0) turn += 1.0;
         const auto i = static_cast<std::size_t>(std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1));
-        ++(e.mode == break_mode::tension ? r.tension : r.shear)[i];
+        ++(e.mode == clast::break_mode::tension ? r.tension : r.shear)[i];
     }
     return r;
 }
 
-/// Radius of the membrane in one ring (m).
-struct ring_profile {
-    double bottom = 0.0, top = 0.0;                   ///< heights of its edges
-    double smallest = 0.0, mean = 0.0, largest = 0.0; ///< distance of the facet centres from the axis
-    double left = 0.0, right = 0.0;                   ///< smallest and largest x: what a viewer along y sees
-};
-
-/// The membrane from the bottom to the top, from its facets (platens are left out).
-inline std::vector<ring_profile> membrane_profile(std::span<const facet_view> facets) {
+std::vector<ring_profile> membrane_profile(std::span<const facet_view> facets) {
     constexpr double huge = std::numeric_limits<double>::max();
     std::map<std::int32_t, std::pair<ring_profile, double>> rings;
     for (const facet_view& f : facets) {
@@ -126,10 +91,10 @@ inline std::vector<ring_profile> membrane_profile(std::span<const facet_view> fa
     return profile;
 }
 
-namespace detail {
+namespace {
 
 /// Replaces every @name@ in a script.
-inline std::string fill_in(std::string text, std::initializer_list<std::pair<std::string_view, std::string>> values) {
+std::string fill_in(std::string text, std::initializer_list<std::pair<std::string_view, std::string>> values) {
     for (const auto& [name, value] : values) {
         const std::string mark = "@" + std::string(name) + "@";
         for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
@@ -139,7 +104,7 @@ inline std::string fill_in(std::string text, std::initializer_list<std::pair<std
 }
 
 /// Runs `gnuplot script` in a folder, messages into gnuplot.log there. Returns its exit code, 127 where it is missing.
-inline int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
     const pid_t child = ::fork();
     if (child < 0) return 126;
     if (child == 0) {
@@ -157,7 +122,7 @@ inline int run_gnuplot(const std::filesystem::path& folder, const std::string& s
     return WIFEXITED(status) ? WEXITSTATUS(status) : 126;
 }
 
-inline std::string hex(const rgb& c) {
+std::string hex(const rgb& c) {
     return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(c[0]), static_cast<int>(c[1]), static_cast<int>(c[2]));
 }
 
@@ -168,15 +133,15 @@ class plot_folder {
         std::filesystem::create_directories(folder_ / "data");
         std::error_code none;
         std::filesystem::remove(folder_ / "gnuplot.log", none);
-        replace_file(folder_ / "style.gp", {style_script});
+        clast::detail::replace_file(folder_ / "style.gp", {style_script});
     }
 
     void data(const std::string& name, const std::string& content) const {
-        replace_file(folder_ / "data" / name, {content});
+        clast::detail::replace_file(folder_ / "data" / name, {content});
     }
 
     void draw(const std::string& figure, const std::string& script) {
-        replace_file(folder_ / (figure + ".gp"), {script});
+        clast::detail::replace_file(folder_ / (figure + ".gp"), {script});
         if (missing_) return;
         const int code = run_gnuplot(folder_, figure + ".gp");
         if (code == 127) {
@@ -208,8 +173,8 @@ class plot_folder {
 };
 
 /// A closed polygon "x,z" per line in cm that follows both edges of each ring, so that a ring shows as the step it is.
-inline std::string step_polygon(const std::vector<ring_profile>& rings, double ring_profile::*left,
-                                double ring_profile::*right) {
+std::string step_polygon(const std::vector<ring_profile>& rings, double ring_profile::*left,
+                         double ring_profile::*right) {
     std::string text;
     const auto point = [&text](double x, double z) {
         fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g}\n", 100 * x, 100 * z);
@@ -219,7 +184,7 @@ inline std::string step_polygon(const std::vector<ring_profile>& rings, double r
     if (!rings.empty()) point(rings.front().*left, rings.front().bottom);
     return text;
 }
-inline std::string step_line(const std::vector<ring_profile>& rings, double ring_profile::*x) {
+std::string step_line(const std::vector<ring_profile>& rings, double ring_profile::*x) {
     std::string text;
     for (const ring_profile& r : rings)
         fmt::format_to(std::back_inserter(text), "{0:.5g},{1:.5g}\n{0:.5g},{2:.5g}\n", 100 * r.*x, 100 * r.bottom,
@@ -227,7 +192,7 @@ inline std::string step_line(const std::vector<ring_profile>& rings, double ring
     return text;
 }
 
-inline void draw_membrane(plot_folder& plots, const plot_request& request) {
+void draw_membrane(plot_folder& plots, const plot_request& request) {
     std::string bands, outlines;
     double r0 = std::numeric_limits<double>::max(), r1 = 0.0, z0 = r0, z1 = -r0, half = 0.0;
     const auto add = [&](const specimen_view& view, const std::string& name, const char* colour) {
@@ -268,7 +233,7 @@ inline void draw_membrane(plot_folder& plots, const plot_request& request) {
                                                                   {"HALF", cm(1.1 * half)}}));
 }
 
-inline void draw_rosette(plot_folder& plots, const std::vector<fracture_event>& events) {
+void draw_rosette(plot_folder& plots, const std::vector<fracture_event>& events) {
     const rosette r = make_rosette(events);
     const std::size_t sectors = r.tension.size();
     std::int64_t most = 0;
@@ -328,7 +293,7 @@ inline void draw_rosette(plot_folder& plots, const std::vector<fracture_event>& 
 }
 
 /// The rectangle that holds all views, with a margin (m).
-inline std::optional<window> common_window(std::initializer_list<const specimen_view*> views) {
+std::optional<window> common_window(std::initializer_list<const specimen_view*> views) {
     constexpr double huge = std::numeric_limits<double>::max();
     window w{huge, -huge, huge, -huge};
     const auto include = [&w](const vec3& p, double r) {
@@ -349,7 +314,7 @@ inline std::optional<window> common_window(std::initializer_list<const specimen_
 }
 
 /// The row at the bottom of a page (in points) that names the colours.
-inline std::string legend(double page_w, double page_h) {
+std::string legend(double page_w, double page_h) {
     // a key of gnuplot breaks its row where it guesses that text is too wide, so the entries are placed by hand
     constexpr double mark = 16.0, letter = 6.4, gap = 22.0;
     constexpr std::pair<pebble_state, std::string_view> entries[] = {
@@ -374,8 +339,7 @@ inline std::string legend(double page_w, double page_h) {
 }
 
 /// Puts the next plot into a part of the page (0 to 1): its ranges in cm, a title above and a scale bar below.
-inline std::string place(double left, double bottom, double width, double height, const window& w,
-                         const std::string& title) {
+std::string place(double left, double bottom, double width, double height, const window& w, const std::string& title) {
     double bar = 1.0; // a round length (cm), about a quarter of the width
     for (const double candidate : {2.0, 5.0, 10.0, 20.0, 50.0})
         if (candidate <= 100.0 * (w.x1 - w.x0) / 3.0) bar = candidate;
@@ -393,11 +357,9 @@ inline std::string place(double left, double bottom, double width, double height
                title, -bar / 2, bar / 2, bar);
 }
 
-inline std::string strain_title(const specimen_view& view) {
-    return fmt::format("ε_a = {:.1f} %", 100.0 * view.axial_strain);
-}
+std::string strain_title(const specimen_view& view) { return fmt::format("ε_a = {:.1f} %", 100.0 * view.axial_strain); }
 
-inline void draw_specimen(plot_folder& plots, const plot_request& request) {
+void draw_specimen(plot_folder& plots, const plot_request& request) {
     const auto frame = common_window({&request.start, &request.end});
     if (!frame) return;
     const window w = *frame;
@@ -441,7 +403,7 @@ inline void draw_specimen(plot_folder& plots, const plot_request& request) {
 
 /// Circles in which the plane coordinate[axis] = value cuts the pebbles, grain by grain: first a dark rim of the whole
 /// grain, then its fill, so that a clump shows one outline. Columns: cm, cm, cm, colour.
-inline std::string section_circles(std::span<const pebble_view> pebbles, int axis, double value, double rim) {
+std::string section_circles(std::span<const pebble_view> pebbles, int axis, double value, double rim) {
     std::vector<std::size_t> cut;
     for (std::size_t i = 0; i < pebbles.size(); ++i)
         if (is_finite(pebbles[i].position) && std::abs(pebbles[i].position[axis] - value) < pebbles[i].radius)
@@ -471,7 +433,7 @@ inline std::string section_circles(std::span<const pebble_view> pebbles, int axi
 }
 
 /// Segments in which the plane coordinate[axis] = value cuts the facets of the membrane, in cm.
-inline std::string section_wall(std::span<const facet_view> facets, int axis, double value) {
+std::string section_wall(std::span<const facet_view> facets, int axis, double value) {
     const int v = axis == 1 ? 2 : 1;
     std::string text;
     for (const facet_view& f : facets) {
@@ -490,7 +452,7 @@ inline std::string section_wall(std::span<const facet_view> facets, int axis, do
     return text.empty() ? "NaN,NaN\n" : text;
 }
 
-inline void draw_section(plot_folder& plots, const specimen_view& view) {
+void draw_section(plot_folder& plots, const specimen_view& view) {
     const auto frame = common_window({&view});
     if (!frame || view.pebbles.empty()) return;
     const window w = *frame;
@@ -522,16 +484,25 @@ inline void draw_section(plot_folder& plots, const specimen_view& view) {
 }
 
 /// A condition of gnuplot that holds for these stages.
-inline std::string stage_condition(const std::vector<std::string>& stages) {
+std::string stage_condition(const std::vector<std::string>& stages) {
     std::string text;
     for (const std::string& s : stages) text += fmt::format("{}s eq \"{}\"", text.empty() ? "" : " || ", s);
     return text.empty() ? "0" : text;
 }
-inline bool is_one_of(const std::string& stage, const std::vector<std::string>& stages) {
+bool is_one_of(const std::string& stage, const std::vector<std::string>& stages) {
     return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
-inline void draw_curves(plot_folder& plots, const plot_request& request, const std::vector<sample>& rows) {
+/// The script of a curve; marks that its body alone has stay in it.
+std::string script_of(const curve_figure& f, const std::string& series, const std::vector<std::string>& stages) {
+    return fill_in(std::string(curve_script), {{"BODY", std::string(f.body)}, // first: it has marks of its own
+                                               {"FIGURE", std::string(f.name)},
+                                               {"TITLE", std::string(f.title)},
+                                               {"SERIES", series},
+                                               {"WANTED", stage_condition(stages)}});
+}
+
+void draw_curves(plot_folder& plots, const plot_request& request, const std::vector<sample>& rows) {
     const std::string series =
         std::filesystem::proximate(std::filesystem::absolute(request.series), std::filesystem::absolute(plots.path()))
             .string();
@@ -549,51 +520,41 @@ inline void draw_curves(plot_folder& plots, const plot_request& request, const s
         strain = std::max(strain, r.axial_strain);
         most = std::max({most, r.broken_tension + r.broken_shear, r.replaced});
     }
-    if (loaded >= 2)
-        plots.draw("compression", fill_in(std::string(compression_script),
-                                          {{"SERIES", series}, {"WANTED", stage_condition(request.loading)}}));
+    if (loaded >= 2) plots.draw("compression", script_of(compression_figure, series, request.loading));
     if (sheared < 2 || strain <= 0.0) return;
     const double pad = std::max(0.12 * (v_max - v_min), 0.1);
     const bool right_half = peak->axial_strain > 0.6 * strain;
-    const auto fill = [&](std::string_view script) {
-        return fill_in(std::string(script),
-                       {{"SERIES", series},
-                        {"WANTED", stage_condition(request.stages)},
-                        {"QPEAK", fmt::format("{:.8g}", 1e-6 * peak->q)},
-                        {"EPEAK", fmt::format("{:.8g}", 100.0 * peak->axial_strain)},
-                        {"QMIN", q_min < -1e3 ? "*" : "0"},
-                        {"QTOP", peak->q > 0.0 ? fmt::format("{:.6g}", 1.15e-6 * peak->q) : "*"},
-                        {"VMIN", fmt::format("{:.6g}", v_min - pad)},
-                        {"VMAX", fmt::format("{:.6g}", v_max + pad)},
-                        {"LABEL_SIDE", right_half ? "right" : "left"},
-                        {"LABEL_X", right_half ? "-0.5" : "0.5"},
-                        {"TOP", fmt::format("{}", std::max(std::ceil(1.08 * static_cast<double>(most)), 1.0))}});
-    };
-    plots.draw("stress", fill(stress_script));
-    plots.draw("volume", fill(volume_script));
-    plots.draw("fractures", fill(fractures_script));
+    for (const curve_figure& f : {stress_figure, volume_figure, fractures_figure})
+        plots.draw(std::string(f.name),
+                   fill_in(script_of(f, series, request.stages),
+                           {{"QPEAK", fmt::format("{:.8g}", 1e-6 * peak->q)},
+                            {"EPEAK", fmt::format("{:.8g}", 100.0 * peak->axial_strain)},
+                            {"QMIN", q_min < -1e3 ? "*" : "0"},
+                            {"QTOP", peak->q > 0.0 ? fmt::format("{:.6g}", 1.15e-6 * peak->q) : "*"},
+                            {"VMIN", fmt::format("{:.6g}", v_min - pad)},
+                            {"VMAX", fmt::format("{:.6g}", v_max + pad)},
+                            {"LABEL_SIDE", right_half ? "right" : "left"},
+                            {"LABEL_X", right_half ? "-0.5" : "0.5"},
+                            {"TOP", fmt::format("{}", std::max(std::ceil(1.08 * static_cast<double>(most)), 1.0))}}));
 }
 
-} // namespace detail
+} // namespace
 
-/// Draws all figures into `folder` (created): stress, volume, fractures, compression, membrane, rosette, specimen and
-/// section, each as .svg and .png. A figure without data is left out. A missing gnuplot is a problem in the report,
-/// not an error; throws run_error where scripts cannot be written and input_error where the tables cannot be read.
-inline plot_report draw_plots(const std::filesystem::path& folder, const plot_request& request) {
+plot_report draw_plots(const std::filesystem::path& folder, const plot_request& request) {
     plot_report report;
-    detail::plot_folder plots(folder, report);
-    const std::vector<sample> rows = read_table<sample>(request.series);
-    detail::draw_curves(plots, request, rows);
-    std::vector<fracture_event> events = read_table<fracture_event>(request.events);
-    const auto start = std::find_if(rows.begin(), rows.end(),
-                                    [&](const sample& r) { return detail::is_one_of(r.stage, request.stages); });
+    plot_folder plots(folder, report);
+    const std::vector<sample> rows = clast::read_table<sample>(request.series);
+    draw_curves(plots, request, rows);
+    std::vector<fracture_event> events = clast::read_table<fracture_event>(request.events);
+    const auto start =
+        std::find_if(rows.begin(), rows.end(), [&](const sample& r) { return is_one_of(r.stage, request.stages); });
     if (start != rows.end()) // in shear only
         std::erase_if(events, [&](const fracture_event& e) { return e.time < start->time; });
-    detail::draw_rosette(plots, events);
-    detail::draw_membrane(plots, request);
-    detail::draw_specimen(plots, request);
-    detail::draw_section(plots, request.end.pebbles.empty() ? request.start : request.end);
+    draw_rosette(plots, events);
+    draw_membrane(plots, request);
+    draw_specimen(plots, request);
+    draw_section(plots, request.end.pebbles.empty() ? request.start : request.end);
     return report;
 }
 
-} // namespace clast
+} // namespace triaxial
