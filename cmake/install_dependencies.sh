@@ -76,7 +76,7 @@ clast_missing() {
         case $group in
         test)
             clast_has_header catch2/catch_all.hpp catch2/catch.hpp || echo "catch2|needed|Catch2, tests"
-            clast_has_header Eigen/Core eigen3/Eigen/Core || echo "libeigen3-dev|needed|Eigen, to compare with in tests"
+            clast_has_header Eigen/Core eigen3/Eigen/Core || echo "libeigen3-dev|needed|Eigen, tests and clast/eigen.hpp"
             ;;
         esac
         case $group in

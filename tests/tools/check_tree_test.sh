@@ -32,6 +32,9 @@ expect ""
 printf '%s\n#pragma once\n' "$licence" >include/clast/core/c.hpp
 expect "include/clast/core/c.hpp: no test"
 make_sound_tree
+printf '%s\n#pragma once\n' "$licence" >include/clast/d.hpp
+expect "include/clast/d.hpp: no test (tests/d.cpp)"
+make_sound_tree
 : >"$tree/built.txt"
 expect "tests/core/a.cpp: in no test program"
 make_sound_tree

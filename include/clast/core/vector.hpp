@@ -3,6 +3,7 @@
 //
 // Plain structs rather than Eigen types, because they sit in public state that is copied, stored and written to
 // checkpoints byte by byte: no hidden alignment, trivially copyable, and GCC and Clang vectorise loops over them.
+// clast/eigen.hpp shows them to Eigen.
 #pragma once
 
 #include <algorithm>
