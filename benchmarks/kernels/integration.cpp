@@ -9,7 +9,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <clast/engine/specimen.hpp>
+#include <clast/bodies/clumps.hpp>
+#include <clast/bodies/spheres.hpp>
 #include <clast/integrators/rotation.hpp>
 
 namespace {
@@ -64,14 +65,14 @@ template <class Specimen> void bodies_step(benchmark::State& state, Specimen& s,
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(bodies));
 }
 void sphere_advance(benchmark::State& state) {
-    sphere_specimen s;
+    bodies::spheres s;
     for (std::size_t b = 0; b < bodies; ++b) s.add({0.02 * static_cast<double>(b), 0.0, 0.0}, 0.01);
     bodies_step(state, s, 0);
 }
 BENCHMARK(sphere_advance)->ArgName("damping_percent")->Arg(0)->Arg(70);
 
 void clump_advance(benchmark::State& state) {
-    specimen s;
+    bodies::clumps s;
     s.shapes.push_back(state.range(1) == 4 ? shapes::tetrahedron_4(0.02) : shapes::apollonian_14(0.02));
     for (std::size_t b = 0; b < bodies; ++b) s.add(0, {0.02 * static_cast<double>(b), 0.0, 0.0}, {});
     bodies_step(state, s, static_cast<std::size_t>(state.range(2)));

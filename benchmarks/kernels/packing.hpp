@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/criteria/none.hpp>
@@ -27,13 +28,13 @@
 namespace kernels {
 
 struct spheres : clast::triaxial_policies_default {
-    using specimen = clast::sphere_specimen;
+    using body = clast::bodies::spheres;
     using boundary = clast::boundaries::periodic_cell;
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };
 struct clumps : spheres {
-    using specimen = clast::specimen;
+    using body = clast::bodies::clumps;
 };
 
 /// Bytes that the program holds on the heap; 0 where the C library does not tell.
@@ -56,7 +57,7 @@ inline constexpr clast::contacts::linear law{1e7, 5e6, 0.3};
 inline const clast::vec3 shear{0.7, 0.7, -1.4}; ///< rates of extension (1/s): I is about 1e-3
 
 template <class P>
-clast::engine<P> make_engine(typename P::specimen grains, const clast::vec3& edges, const clast::vec3& rates,
+clast::engine<P> make_engine(typename P::body grains, const clast::vec3& edges, const clast::vec3& rates,
                              const request& wanted) {
     clast::boundaries::periodic_cell cell(edges);
     for (std::size_t a = 0; a < 3; ++a) cell.axes[a].rate = rates[static_cast<int>(a)];
@@ -71,8 +72,7 @@ clast::engine<P> make_engine(typename P::specimen grains, const clast::vec3& edg
 }
 
 /// Compresses grains on a cubic lattice, side^3 in number: one by one, then all together towards the stress.
-template <class P, class Add>
-clast::engine<P> compressed(typename P::specimen grains, int side, double gap, Add&& add) {
+template <class P, class Add> clast::engine<P> compressed(typename P::body grains, int side, double gap, Add&& add) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (int k = 0; k < side * side * side; ++k) {
@@ -104,7 +104,7 @@ inline const clast::engine<spheres>& base_of_spheres() {
 inline const clast::engine<clumps>& base_of_clumps(int pebbles) {
     static std::map<int, clast::engine<clumps>> made;
     if (const auto found = made.find(pebbles); found != made.end()) return found->second;
-    clast::specimen grains;
+    clast::bodies::clumps grains;
     grains.shapes.push_back(pebbles == 4 ? clast::shapes::tetrahedron_4(0.02) : clast::shapes::apollonian_14(0.02));
     return made
         .emplace(
@@ -121,16 +121,16 @@ inline const clast::engine<clumps>& base_of_clumps(int pebbles) {
 /// copies^3 times the base, in pure shear.
 template <class P> clast::engine<P> repeated(const clast::engine<P>& base, int copies, const request& wanted) {
     const clast::vec3 edges = base.boundary.edges();
-    typename P::specimen grains;
+    typename P::body grains;
     grains.density = base.grains.density;
-    if constexpr (P::specimen::turns) grains.shapes = base.grains.shapes;
+    if constexpr (P::body::turns) grains.shapes = base.grains.shapes;
     for (int block = 0; block < copies * copies * copies; ++block) {
         const auto at = [&](int i) { return i - 0.5 * (copies - 1); };
         const clast::vec3 shift =
             clast::scale(edges, {at(block % copies), at(block / copies % copies), at(block / copies / copies)});
         for (std::size_t b = 0; b < base.grains.body_count(); ++b) {
             const clast::vec3 x = base.grains.centre(b) + shift, flow = clast::scale(shear, x);
-            if constexpr (P::specimen::turns) {
+            if constexpr (P::body::turns) {
                 const auto g = static_cast<std::size_t>(grains.add(0, x, base.grains.turning[b].q));
                 grains.motion[g].v = flow;
             } else {

@@ -14,7 +14,7 @@ struct my_policies : clast::triaxial_policies_default { // nominal_force and mod
 int main() {
     using namespace clast;
     // a grain of 4 balls that stands on two of them
-    specimen rock;
+    bodies::clumps rock;
     rock.shapes.push_back(shapes::tetrahedron_4(0.02));
     rock.add(0, {0, 0, 0}, {});
     const double r = rock.pebbles[0].radius, half = rock.pebbles[0].x.z + r;

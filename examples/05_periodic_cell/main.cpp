@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 struct element : clast::triaxial_policies_default {
-    using specimen = clast::sphere_specimen;           // single spheres: no clump, no orientation
+    using body = clast::bodies::spheres;           // single spheres: no clump, no orientation
     using boundary = clast::boundaries::periodic_cell; // no facet
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
@@ -13,7 +13,7 @@ struct element : clast::triaxial_policies_default {
 
 int main() {
     constexpr int n = 6; // spheres along an edge, on a grid of 22 mm around the origin
-    clast::sphere_specimen spheres;
+    clast::bodies::spheres spheres;
     for (int k = 0; k < n * n * n; ++k) {
         const auto at = [](int i) { return 0.022 * (i - 0.5 * (n - 1)); };
         const int id = spheres.add({at(k % n), at(k / n % n), at(k / n / n)}, k % 3 == 0 ? 0.008 : 0.01); // m

@@ -2,6 +2,8 @@
 // Everything that a simulator needs. Files (CSV, ParaView, checkpoints) are in clast/io and included apart.
 #pragma once
 
+#include <clast/bodies/clumps.hpp>
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 #include <clast/boundaries/ring_walls.hpp>

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 #include <clast/boundaries/ring_walls.hpp>
@@ -32,10 +33,10 @@ using namespace clast;
 namespace {
 
 /// Whole grains of one kind in a boundary.
-template <class Boundary, class Specimen = specimen, class Contact = contacts::linear>
+template <class Boundary, class Body = bodies::clumps, class Contact = contacts::linear>
 struct whole : triaxial_policies_default {
     using contact = Contact;
-    using specimen = Specimen;
+    using body = Body;
     using boundary = Boundary;
     using breakage = criteria::none;
     using replacement = replacements::none;
@@ -62,8 +63,8 @@ template <class F> void each_on_grid(int n, double spacing, F&& f) {
     for (int k = 0; k < n * n * n; ++k) f(k, vec3{at(k % n), at(k / n % n), at(k / n / n)});
 }
 /// Spheres of 16 to 20 mm that move at random (0.1 m/s).
-sphere_specimen spheres(int n, double spacing) {
-    sphere_specimen s;
+bodies::spheres spheres(int n, double spacing) {
+    bodies::spheres s;
     each_on_grid(n, spacing, [&](int k, const vec3& x) {
         random_stream random{3, static_cast<std::uint64_t>(k)};
         s.add(x, uniform(random, 0.008, 0.01));
@@ -72,8 +73,8 @@ sphere_specimen spheres(int n, double spacing) {
     return s;
 }
 /// Clumps of 20 mm, turned at random, at rest.
-specimen clumps(const shape& grain, int n, double spacing) {
-    specimen s = scenes::empty(grain);
+bodies::clumps clumps(const shape& grain, int n, double spacing) {
+    bodies::clumps s = scenes::empty(grain);
     each_on_grid(n, spacing, [&](int k, const vec3& x) {
         random_stream random{5, static_cast<std::uint64_t>(k)};
         s.add(0, x, orientation(random));
@@ -123,7 +124,7 @@ struct clumps_4_in_ring_walls {
 };
 
 struct spheres_in_box {
-    using policies = whole<boundaries::box, sphere_specimen>;
+    using policies = whole<boundaries::box, bodies::spheres>;
     static constexpr std::int64_t steps = 1500;
     static engine<policies> start(int threads) {
         engine<policies> e(one_law<policies>({1e6, 5e5, 0.3}, 0.5, threads), spheres(7, 0.0205), box(0.1435, 1e6));
@@ -151,7 +152,7 @@ struct clumps_14_in_box {
 
 /// Nothing but dashpots takes energy out.
 struct spheres_in_cell_with_dashpots {
-    using policies = whole<boundaries::periodic_cell, sphere_specimen, contacts::linear_dashpot>;
+    using policies = whole<boundaries::periodic_cell, bodies::spheres, contacts::linear_dashpot>;
     static constexpr std::int64_t steps = 1200;
     static engine<policies> start(int threads) {
         constexpr int n = 7;
@@ -211,7 +212,7 @@ struct hertz {
     double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
 };
 struct clumps_4_of_hertz {
-    using policies = whole<boundaries::solid_strips, specimen, hertz>;
+    using policies = whole<boundaries::solid_strips, bodies::clumps, hertz>;
     static constexpr std::int64_t steps = 1500;
     static engine<policies> start(int threads) {
         engine_settings<policies> s{.grain_contact = {5e8, 0.3},

@@ -21,12 +21,12 @@ namespace {
 
 using rigid = scenes::unbreakable<>;
 
-vec3 momentum(const specimen& s) {
+vec3 momentum(const bodies::clumps& s) {
     vec3 p;
     for (std::size_t g = 0; g < s.grain_count(); ++g) p += s.mass_of(s.grains[g]) * s.motion[g].v;
     return p;
 }
-vec3 angular_momentum(const specimen& s) {
+vec3 angular_momentum(const bodies::clumps& s) {
     vec3 l;
     for (std::size_t g = 0; g < s.grain_count(); ++g)
         l += s.mass_of(s.grains[g]) * cross(s.motion[g].x, s.motion[g].v) + s.turning[g].l;
@@ -41,7 +41,7 @@ template <class P> double residual(const engine<P>& e) {
 
 /// Two tumbling clumps that hit each other off centre, far from any wall.
 template <class P> engine<P> collision(engine_settings<P> s) {
-    specimen sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
     sp.add(0, {-0.011, 0.002, 0.001}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.add(0, {0.011, -0.003, 0.002}, unit(quaternion{0.4, -0.7, 0.6, 0.1}));
     sp.motion[0].v = {1.0, 0.1, -0.2};
@@ -116,7 +116,7 @@ TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen
     auto s = scenes::settings<rigid>();
     s.damping = 0.0;
     s.safety = 0.05;
-    specimen sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
     sp.add(0, {0, 0, -0.18}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.motion[0].v = {0.0, 0.0, -1.0};
     engine<rigid> e(s, sp, boundaries::solid_strips(scenes::cylinder(0.2, 0.4)));
@@ -138,7 +138,7 @@ TEST_CASE("a platen that pushes a clump does the work that the clump receives") 
     auto s = scenes::settings<rigid>();
     s.damping = 0.0;
     s.safety = 0.05;
-    specimen sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
     s.safety = 0.05;
     sp.add(0, {0, 0, -0.185}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     engine<rigid> e(s, sp, boundaries::solid_strips(scenes::cylinder(0.2, 0.4)));

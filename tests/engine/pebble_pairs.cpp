@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <clast/bodies/clumps.hpp>
 #include <clast/core/random.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/searches/brute_force.hpp>
@@ -22,9 +23,9 @@ struct named {
 };
 
 /// Clumps of four and of fourteen pebbles anywhere in a cube around the origin.
-specimen clumps(std::size_t n, double edge) {
+bodies::clumps clumps(std::size_t n, double edge) {
     random_stream random{3, n};
-    specimen sp;
+    bodies::clumps sp;
     sp.shapes = {shapes::tetrahedron_4(0.03), shapes::apollonian_14(0.04)};
     for (std::size_t k = 0; k < n; ++k) {
         const auto any = [&] { return uniform(random, -0.5 * edge, 0.5 * edge); };
@@ -32,12 +33,12 @@ specimen clumps(std::size_t n, double edge) {
     }
     return sp;
 }
-double gap(const specimen& sp, std::int32_t p, std::int32_t q, const vec3& shift) {
+double gap(const bodies::clumps& sp, std::int32_t p, std::int32_t q, const vec3& shift) {
     const auto& a = sp.pebbles[static_cast<std::size_t>(p)];
     const auto& b = sp.pebbles[static_cast<std::size_t>(q)];
     return norm(b.x + shift - a.x) - a.radius - b.radius;
 }
-bool in_order(const specimen& sp, const pebble_pair& a, const pebble_pair& b) {
+bool in_order(const bodies::clumps& sp, const pebble_pair& a, const pebble_pair& b) {
     const std::size_t ga = sp.group_of(a.i), gb = sp.group_of(b.i);
     return ga != gb ? ga < gb : a.j != b.j ? a.j < b.j : a.i < b.i;
 }
@@ -55,7 +56,7 @@ std::vector<named> of(const pair_list& list) {
 } // namespace
 
 TEST_CASE("pairs of clumps and of loose balls are those of a look at all, in the order of the lists") {
-    specimen sp = clumps(40, 0.12);
+    bodies::clumps sp = clumps(40, 0.12);
     const double margin = 2e-3;
     // two clumps have come apart: their pebbles are balls
     for (const std::size_t g : {3U, 17U}) {
@@ -80,7 +81,7 @@ TEST_CASE("pairs of clumps and of loose balls are those of a look at all, in the
     REQUIRE((slow.size() > 100 && fast.size() > 30));
     for (const int threads : {1, 3}) {
         const execution run(threads);
-        const auto found = pebble_pairs<specimen, false>(sp, margin, {}, run)
+        const auto found = pebble_pairs<bodies::clumps, false>(sp, margin, {}, run)
                                .of(spheres, searches::brute_force{}.pairs(spheres.all, margin));
         CHECK(of(found.slow) == sorted(slow));
         CHECK(of(found.fast) == sorted(fast));
@@ -93,7 +94,7 @@ TEST_CASE("pairs of clumps and of loose balls are those of a look at all, in the
 
 TEST_CASE("in a periodic cell every pair is found once, with the image that is near") {
     const vec3 edges{0.30, 0.24, 0.27};
-    specimen sp = clumps(150, 0.24);
+    bodies::clumps sp = clumps(150, 0.24);
     const double margin = 2e-3;
     double widest = 0.0;
     search_spheres spheres;
@@ -117,7 +118,7 @@ TEST_CASE("in a periodic cell every pair is found once, with the image that is n
         std::count_if(expected.begin(), expected.end(), [](const named& n) { return n.image != no_shift; });
     REQUIRE(across > 30);
     const execution run(1);
-    const auto found = pebble_pairs<specimen, true>(sp, margin, edges, run)
+    const auto found = pebble_pairs<bodies::clumps, true>(sp, margin, edges, run)
                            .of(spheres, searches::brute_force{}.pairs(spheres.all, margin));
     CHECK(of(found.slow) == sorted(expected));
     CHECK(found.fast.size() == 0);

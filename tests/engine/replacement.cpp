@@ -30,7 +30,7 @@ struct total {
 };
 /// Of all bodies, at the instant of the clumps.
 total total_of(const engine<brittle>& e) {
-    const specimen& s = e.grains;
+    const bodies::clumps& s = e.grains;
     total t;
     t.energy = e.kinetic_energy();
     for (std::size_t g = 0; g < s.grain_count(); ++g) {
@@ -58,7 +58,7 @@ double residual(const engine<brittle>& e) {
 
 /// Two tumbling clumps that collide.
 engine<brittle> collision(engine_settings<brittle> s, const shape& grain) {
-    specimen sp = scenes::empty(grain);
+    bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {-0.011, 0.002, 0.001}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.add(0, {0.011, -0.003, 0.002}, unit(quaternion{0.4, -0.7, 0.6, 0.1}));
     sp.motion[0].v = {1.0, 0.1, -0.2};
@@ -74,7 +74,7 @@ engine<brittle> collision(engine_settings<brittle> s, const shape& grain) {
 /// rest. Platens stand still.
 engine<brittle> pressed(engine_settings<brittle> s, double force) {
     const shape grain = shapes::tetrahedron_4(0.02);
-    specimen sp = scenes::empty(grain);
+    bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     const boundaries::cylinder_settings c = scenes::cylinder_around(sp);
     engine<brittle> e(std::move(s), std::move(sp), boundaries::solid_strips(c));

@@ -47,7 +47,7 @@ inline boundaries::cylinder_settings cylinder(double radius, double height, doub
 
 /// A cylinder whose platens touch the lowest and the highest pebble of a specimen around the origin, or reach into them
 /// by `squeeze` (m).
-inline boundaries::cylinder_settings cylinder_around(const specimen& sp, double squeeze = 0.0) {
+inline boundaries::cylinder_settings cylinder_around(const bodies::clumps& sp, double squeeze = 0.0) {
     double low = 0.0, high = 0.0;
     for (const auto& p : sp.pebbles) {
         low = std::min(low, p.x.z - p.radius);
@@ -86,8 +86,8 @@ inline quaternion turning(const vec3& a, const vec3& b) {
 }
 
 /// A specimen of one shape without grains.
-inline specimen empty(shape s) {
-    specimen sp;
+inline bodies::clumps empty(shape s) {
+    bodies::clumps sp;
     sp.shapes.push_back(std::move(s));
     return sp;
 }
@@ -106,7 +106,7 @@ inline boundaries::drives isotropic(double stress, double max_speed) {
 template <class P>
 engine<P> packed(engine_settings<P> s, const shape& grain, std::size_t count, double radius, double stress,
                  std::int64_t steps, std::uint64_t seed = 1) {
-    specimen sp = empty(grain);
+    bodies::clumps sp = empty(grain);
     protocol::add_cloud(sp, 0, count, {radius, -radius, radius}, seed);
     double smallest = grain.circumscribed_radius;
     for (const shape_pebble& p : grain.pebbles) smallest = std::min(smallest, p.radius);

@@ -7,6 +7,7 @@
 
 #include <catch.hpp>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 
 #include "engine/scenes.hpp"
@@ -32,28 +33,28 @@ engine<scenes::breakable<boundaries::tiles>> broken(int threads) {
 }
 
 /// Clumps or spheres on a grid in a cell that closes.
-template <class Specimen> struct in_cell : triaxial_policies_default {
-    using specimen = Specimen;
+template <class Body> struct in_cell : triaxial_policies_default {
+    using body = Body;
     using boundary = boundaries::periodic_cell;
     using breakage = criteria::none;
     using replacement = replacements::none;
 };
-template <class Specimen> engine<in_cell<Specimen>> cell(int threads) {
+template <class Body> engine<in_cell<Body>> cell(int threads) {
     constexpr int n = 5;
-    Specimen s;
-    if constexpr (Specimen::turns) s.shapes.push_back(shapes::tetrahedron_4(0.02));
+    Body s;
+    if constexpr (Body::turns) s.shapes.push_back(shapes::tetrahedron_4(0.02));
     for (int k = 0; k < n * n * n; ++k) {
         const auto at = [](int i) { return 0.0202 * (i - 0.5 * (n - 1)); };
         const vec3 x{at(k % n), at(k / n % n), at(k / n / n)};
-        if constexpr (Specimen::turns)
+        if constexpr (Body::turns)
             s.add(0, x, unit(quaternion{1.0, 0.1 * (k % 7), 0.2 * (k % 5), 0.3 * (k % 3)}));
         else
             s.add(x, 0.0095 + 0.0001 * (k % 5));
     }
-    auto settings = scenes::settings<in_cell<Specimen>>();
+    auto settings = scenes::settings<in_cell<Body>>();
     settings.run = execution(threads);
     settings.contacts_per_thread = 8;
-    engine<in_cell<Specimen>> e(settings, std::move(s), boundaries::periodic_cell({0.101, 0.101, 0.101}));
+    engine<in_cell<Body>> e(settings, std::move(s), boundaries::periodic_cell({0.101, 0.101, 0.101}));
     for (auto& axis : e.boundary.axes) axis = {.rate = -1.0};
     e.step(400);
     return e;
@@ -98,8 +99,8 @@ TEST_CASE("a digest is the same on 1, 2 and 3 threads and through an archive") {
         if (threads > 1) REQUIRE(e.slow_contacts().shared > 0);
         return e;
     });
-    check_threads_and_archive([](int threads) { return cell<sphere_specimen>(threads); });
-    check_threads_and_archive([](int threads) { return cell<specimen>(threads); });
+    check_threads_and_archive([](int threads) { return cell<bodies::spheres>(threads); });
+    check_threads_and_archive([](int threads) { return cell<bodies::clumps>(threads); });
 }
 
 TEST_CASE("a digest shows a change of one place, velocity, history, bond or wall force by a bit") {
@@ -125,7 +126,7 @@ TEST_CASE("a digest shows a change of one place, velocity, history, bond or wall
     REQUIRE(force != nullptr);
     check_that_change_shows(e, *force, false);
 
-    auto spheres = cell<sphere_specimen>(1);
+    auto spheres = cell<bodies::spheres>(1);
     check_that_change_shows(spheres, spheres.grains.pebbles[7].x.z);
     check_that_change_shows(spheres, spheres.grains.pebbles[7].v.x);
     spheres.boundary.axes[1].rate = 1.0;
@@ -162,7 +163,7 @@ TEST_CASE("a law without a history has a digest") {
         using contact = frictionless;
     };
     const auto run = [](std::int64_t steps) {
-        specimen sp = scenes::empty(shapes::tetrahedron_4(0.02));
+        bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
         sp.add(0, {}, {});
         sp.add(0, {0, 0, 0.0195}, {});
         engine<policies> e(

@@ -18,7 +18,7 @@ constexpr double r = 0.01;
 
 /// Spheres in a column between platens that overlap their neighbours and the platens by `depth`.
 engine<rigid> column(std::size_t count, double depth) {
-    specimen sp = scenes::empty(shapes::sphere(2.0 * r));
+    bodies::clumps sp = scenes::empty(shapes::sphere(2.0 * r));
     for (std::size_t k = 0; k < count; ++k)
         sp.add(0, {0, 0, (2.0 * r - depth) * (static_cast<double>(k) - 0.5 * static_cast<double>(count - 1))}, {});
     const double height = 2.0 * r + (2.0 * r - depth) * static_cast<double>(count - 1) - 2.0 * depth;
@@ -70,7 +70,7 @@ TEST_CASE("contacts of a column: coordination, overlap, mean force and rest") {
 }
 
 TEST_CASE("a body that no other balances shows in the unbalanced ratio") {
-    specimen sp = scenes::empty(shapes::sphere(2.0 * r));
+    bodies::clumps sp = scenes::empty(shapes::sphere(2.0 * r));
     sp.add(0, {0, 0, -0.5 * r}, {});
     sp.add(0, {0, 0, 1.5 * r - 1e-5}, {}); // pushed up by the other, held by nothing
     auto s = scenes::settings<rigid>();
@@ -98,7 +98,7 @@ TEST_CASE("in a packing at rest under one stress all round, contacts and walls a
 TEST_CASE("bonds of a cluster carry the stress that its clump did") {
     using brittle = scenes::breakable<>;
     const shape grain = shapes::tetrahedron_4(0.02);
-    specimen sp = scenes::empty(grain);
+    bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     const boundaries::cylinder_settings c = scenes::cylinder_around(sp, 2e-5);
     engine<brittle> e(scenes::settings<brittle>(1e15), std::move(sp), boundaries::solid_strips(c));

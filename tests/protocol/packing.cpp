@@ -11,8 +11,8 @@
 using namespace clast;
 
 namespace {
-specimen cloud(std::size_t count, const protocol::cylinder& room, std::uint64_t seed) {
-    specimen s;
+bodies::clumps cloud(std::size_t count, const protocol::cylinder& room, std::uint64_t seed) {
+    bodies::clumps s;
     s.shapes = {shapes::tetrahedron_4(0.02)};
     protocol::add_cloud(s, 0, count, room, seed);
     return s;
@@ -21,7 +21,7 @@ specimen cloud(std::size_t count, const protocol::cylinder& room, std::uint64_t 
 
 TEST_CASE("a cloud has as many grains as asked for, inside, at rest and apart from each other") {
     const protocol::cylinder room{0.06, -0.02, 0.15};
-    const specimen s = cloud(60, room, 3);
+    const bodies::clumps s = cloud(60, room, 3);
     REQUIRE(s.grain_count() == 60);
     for (std::size_t g = 0; g < 60; ++g) {
         const vec3& c = s.motion[g].x;
@@ -42,7 +42,7 @@ TEST_CASE("the seed makes the cloud: the same one the same, another one another"
 }
 
 TEST_CASE("a cloud is spread evenly: half of it in each half of the room, orientations without a preference") {
-    const specimen s = cloud(1000, {0.2, 0.0, 0.8}, 1);
+    const bodies::clumps s = cloud(1000, {0.2, 0.0, 0.8}, 1);
     vec3 mean, axis;
     double inside = 0.0;
     for (std::size_t g = 0; g < 1000; ++g) {

@@ -194,7 +194,7 @@ TEST_CASE("a NaN, an escaped grain and pebbles pressed into each other stop the 
     {
         test_type test(setup(), {rest(2000)});
         test.protocol().plan.look_every = 1;
-        specimen& s = test.sim().grains;
+        bodies::clumps& s = test.sim().grains;
         s.turning[1].q = s.turning[0].q;
         s.motion[1].x = s.motion[0].x + vec3{0.002, 0.0, 0.0};
         for (body_motion& m : s.motion) m.v = {};

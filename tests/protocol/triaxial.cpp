@@ -74,7 +74,7 @@ TEST_CASE("a setup that makes no sense is refused by the name of its member, wit
 
 TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of grains that the porosity asks for") {
     const triaxial_test<rigid> test(good(), protocol::preparation(66_mm, 75_mm));
-    const specimen& s = test.sim().grains;
+    const bodies::clumps& s = test.sim().grains;
     const double section = 8.0 * std::tan(std::numbers::pi / 8.0) * 0.033 * 0.033;
     CHECK(s.solid_volume() / (section * 0.075) == Approx(0.38).margin(0.5 * s.shapes[0].volume / (section * 0.075)));
     CHECK(test.sim().boundary.height() == Approx(1.8 * 0.075));

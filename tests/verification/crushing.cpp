@@ -28,7 +28,7 @@ struct crushed {
 /// Crushes a 4B grain with the given orientation: replaced at about half the load of the first break.
 crushed crush(const quaternion& q, double strength, double trigger_force, double safety, double distance) {
     const shape grain = shapes::tetrahedron_4(0.02);
-    specimen sp = scenes::empty(grain);
+    bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {}, q);
     const boundaries::cylinder_settings c = scenes::cylinder_around(sp);
     auto s = scenes::settings<brittle>(trigger_force / (0.9 * 0.02 * 0.02), strength);

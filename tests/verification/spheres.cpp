@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 #include <clast/contacts/linear.hpp>
@@ -23,7 +24,7 @@ using namespace clast;
 namespace {
 
 struct in_a_cell : triaxial_policies_default {
-    using specimen = sphere_specimen;
+    using body = bodies::spheres;
     using boundary = boundaries::periodic_cell;
     using breakage = criteria::none;
     using replacement = replacements::none;
@@ -55,8 +56,8 @@ template <class P> engine_settings<P> settings(double mu, double damping, double
 }
 
 /// n^3 spheres of 9 to 10 mm on a grid of 22 mm around the origin, moving at random.
-sphere_specimen cloud(int n, double speed) {
-    sphere_specimen s;
+bodies::spheres cloud(int n, double speed) {
+    bodies::spheres s;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (int k = 0; k < n * n * n; ++k) {
@@ -90,15 +91,15 @@ engine<in_a_cell> packed(double skin, int threads = 1) {
 } // namespace
 
 TEST_CASE("a scene of spheres holds no quaternion and no owner") {
-    static_assert(!has_orientation<sphere_specimen> && has_orientation<specimen>);
+    static_assert(!has_orientation<bodies::spheres> && has_orientation<bodies::clumps>);
     static_assert(sizeof(pebble_motion) == 12 * sizeof(double));
-    static_assert(sizeof(sphere_specimen::reference) == sizeof(vec3));
+    static_assert(sizeof(bodies::spheres::reference) == sizeof(vec3));
     CHECK(cloud(2, 0.0).pebble_count() == 8);
 }
 
 TEST_CASE("two spheres that meet across the faces of a cell do what they do in its middle") {
     const auto collide = [](const vec3& where) {
-        sphere_specimen s;
+        bodies::spheres s;
         s.add(where - vec3{0.0102, 0.001, 0.0}, 0.01);
         s.add(where + vec3{0.0102, 0.001, 0.003}, 0.01);
         s.pebbles[0].v = {0.5, 0.0, 0.1};
@@ -139,7 +140,7 @@ TEST_CASE("a gas of spheres in a cell keeps its momentum to rounding and its ene
 }
 
 TEST_CASE("no overlap goes unseen, however unlike the speeds, in a cell as small as it may be") {
-    sphere_specimen grains = cloud(4, 0.1);
+    bodies::spheres grains = cloud(4, 0.1);
     for (std::size_t k = 0; k < grains.pebble_count(); k += 7) grains.pebbles[k].v = 30.0 * grains.pebbles[k].v;
     auto s = settings<in_a_cell>(0.0, 0.0, 1e-4);
     s.largest_step = 4e-6;

@@ -45,7 +45,7 @@ clast::shape overlapping(const std::vector<peers::sphere>& members) {
 int main(int argc, char** argv) try {
     const peers::scene s = peers::read(argc, argv);
     const auto members = peers::by_owner(s);
-    clast::specimen grains = peers::grains_of(s, members, overlapping(members[0]));
+    clast::bodies::clumps grains = peers::grains_of(s, members, overlapping(members[0]));
     const double mass = grains.mass_of(grains.grains[0]);
     const auto law = peers::grain_law(s, mass);
     clast::engine<clumps> e(peers::settings<clumps>(s, law, peers::wall_law(law)), std::move(grains), peers::walls(s));

@@ -16,6 +16,7 @@
 
 #include <fmt/core.h>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/core/errors.hpp>
@@ -160,7 +161,7 @@ clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wa
 }
 /// Spheres alone, under the law of these scenes.
 template <class Boundary> struct spheres_in : clast::triaxial_policies_default {
-    using specimen = clast::sphere_specimen;
+    using body = clast::bodies::spheres;
     using contact = clast::contacts::linear_dashpot;
     using boundary = Boundary;
     using breakage = clast::criteria::none;
@@ -177,8 +178,8 @@ inline clast::contacts::linear_dashpot wall_law(clast::contacts::linear_dashpot 
     return law;
 }
 /// The spheres of a scene around `origin`, in its flow.
-inline clast::sphere_specimen spheres_of(const scene& s, const clast::vec3& origin) {
-    clast::sphere_specimen spheres;
+inline clast::bodies::spheres spheres_of(const scene& s, const clast::vec3& origin) {
+    clast::bodies::spheres spheres;
     spheres.density = s["density"];
     for (const sphere& one : s.spheres) {
         const auto p = static_cast<std::size_t>(spheres.add(one.x - origin, one.r));
@@ -197,9 +198,9 @@ inline std::vector<std::vector<sphere>> by_owner(const scene& s) {
 }
 /// Grains that are all the first one, turned: their orientations from their first three pebbles. `kind` is the shape of
 /// the first one.
-inline clast::specimen grains_of(const scene& s, const std::vector<std::vector<sphere>>& members,
-                                 const clast::shape& kind) {
-    clast::specimen grains;
+inline clast::bodies::clumps grains_of(const scene& s, const std::vector<std::vector<sphere>>& members,
+                                       const clast::shape& kind) {
+    clast::bodies::clumps grains;
     grains.density = s["density"];
     grains.shapes.push_back(kind);
     const auto frame = [](const clast::vec3& a, const clast::vec3& b, const clast::vec3& c) {

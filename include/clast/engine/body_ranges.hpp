@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <clast/core/parallel.hpp>
-#include <clast/engine/contact_list.hpp>
+#include <clast/bodies/contact_list.hpp>
 
 namespace clast {
 

@@ -46,12 +46,12 @@
 #include <clast/core/errors.hpp>
 #include <clast/core/parallel.hpp>
 #include <clast/engine/body_ranges.hpp>
-#include <clast/engine/contact_list.hpp>
+#include <clast/bodies/contact_list.hpp>
 #include <clast/engine/kernel.hpp>
 #include <clast/engine/list_widths.hpp>
 #include <clast/engine/pebble_pairs.hpp>
 #include <clast/engine/policies.hpp>
-#include <clast/engine/specimen.hpp>
+#include <clast/bodies/concepts.hpp>
 #include <clast/integrators/local_damping.hpp>
 #include <clast/integrators/rotation.hpp>
 #include <clast/integrators/time_step.hpp>
@@ -123,7 +123,7 @@ template <triaxial_policies P> class engine {
     using contact = typename P::contact;
     using history = typename contact::history;
     using boundary_type = typename P::boundary;
-    using specimen_type = typename P::specimen;
+    using body_type = typename P::body;
     using settings_type = engine_settings<P>;
     static constexpr bool breakable = P::replacement::makes_bonds;
     static constexpr bool periodic = boundaries::periodic<boundary_type>;
@@ -131,12 +131,12 @@ template <triaxial_policies P> class engine {
     static constexpr bool has_criterion = P::breakage::evaluated;
 
     settings_type settings;
-    specimen_type grains;
+    body_type grains;
     boundary_type boundary;
     boundaries::drives drives;
     bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
 
-    engine(settings_type s, specimen_type sp, boundary_type b)
+    engine(settings_type s, body_type sp, boundary_type b)
         : settings(std::move(s)), grains(std::move(sp)), boundary(std::move(b)) {
         if constexpr (has_criterion) {
             using criteria::needs;
@@ -162,7 +162,7 @@ template <triaxial_policies P> class engine {
         smallest_mass_ = grains.smallest_mass();
         widths_ = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         loads_.assign(static_cast<std::size_t>(boundary.facet_count()), {});
-        if constexpr (specimen_type::turns) sort_pebbles();
+        if constexpr (body_type::turns) sort_pebbles();
         totals_.initial_energy = kinetic_energy();
         search();
         pick();
@@ -213,7 +213,7 @@ template <triaxial_policies P> class engine {
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
     /// Sets the velocity of a clump's centre (m/s).
-    void set_velocity(std::size_t grain_id, const vec3& v) requires(specimen_type::turns) {
+    void set_velocity(std::size_t grain_id, const vec3& v) requires(body_type::turns) {
         grains.motion[grain_id].v = v;
     }
     /// To be called after velocities were set by hand, so that the audit knows of their energy.
@@ -255,7 +255,7 @@ template <triaxial_policies P> class engine {
         const auto& i = grains.pebbles[at(pair.i)];
         const auto& j = grains.pebbles[at(pair.j)];
         const vec3 between = (i.radius + j.radius - row.depth) * row.normal;
-        if constexpr (specimen_type::turns) return i.x - centre_of(pair.i) + between + centre_of(pair.j) - j.x;
+        if constexpr (body_type::turns) return i.x - centre_of(pair.i) + between + centre_of(pair.j) - j.x;
         return between;
     }
     /// Centre of the body of a pebble (m).
@@ -327,7 +327,7 @@ template <triaxial_policies P> class engine {
     }
     /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).
     void place_all() {
-        if constexpr (specimen_type::turns)
+        if constexpr (body_type::turns)
             settings.run.for_each(grains.body_count(), [&](std::size_t b) {
                 if (grains.is_swept(b)) grains.place(b, unlisted_.of(b));
             });
@@ -335,7 +335,7 @@ template <triaxial_policies P> class engine {
 
   private:
     static constexpr std::size_t rows_at_once = 256; ///< contacts that are evaluated in one go
-    using strip_type = strip<contact, decltype(std::declval<const specimen_type&>().view())>;
+    using strip_type = strip<contact, decltype(std::declval<const body_type&>().view())>;
 
     /// f(k) for the slow contacts in the order that one thread gives them.
     template <class F> void each_slow(F&& f) const { slow_.each_in_order(pair_order(), f); }
@@ -396,7 +396,7 @@ template <triaxial_policies P> class engine {
         double ahead;
 
         [[gnu::always_inline]] void adjust(strip_type& s, const contact_block& block) const {
-            const specimen_type& g = owner.grains;
+            const body_type& g = owner.grains;
             const auto is_clump = [&g](std::int32_t p) { return at(g.owner[at(p)]) < g.grain_count(); };
             for (std::size_t k = block.at; k < block.at + block.size; ++k) {
                 const pebble_pair& p = owner.fast_.pairs[block.row + k - block.at];
@@ -654,7 +654,7 @@ template <triaxial_policies P> class engine {
         for (; wall < slow_wall_.size() && grains.body_of(slow_wall_[wall].pebble) == g; ++wall) {
             const wall_row& w = slow_wall_[wall];
             load.force += w.force;
-            if constexpr (specimen_type::turns)
+            if constexpr (body_type::turns)
                 load.moment += cross(grains.pebbles[at(w.pebble)].x - grains.centre(g), w.force);
         }
         if constexpr (breakable) {
@@ -1026,7 +1026,7 @@ template <triaxial_policies P> class engine {
 
     /// Where displacements count from.
     struct origin {
-        std::vector<typename specimen_type::reference> bodies; ///< per swept body
+        std::vector<typename body_type::reference> bodies; ///< per swept body
         std::vector<vec3> balls;                               ///< per pebble of a breakable specimen
         vec3 edges;                                            ///< of a periodic cell
         double wall_travel = 0.0; ///< how far walls have moved since, or how much strain brings two grains together (m)
@@ -1193,7 +1193,7 @@ template <triaxial_policies P> class engine {
                                  "take a cell of at least four grain diameters"});
             spheres.add_images(edges, reach);
         }
-        auto found = pebble_pairs<specimen_type, periodic>(grains, widths_.margin(), edges, settings.run)
+        auto found = pebble_pairs<body_type, periodic>(grains, widths_.margin(), edges, settings.run)
                          .of(spheres, typename P::search{}.pairs(spheres.all, widths_.margin()));
         wide_.slow = std::move(found.slow);
         wide_.fast = std::move(found.fast);
@@ -1347,7 +1347,7 @@ template <triaxial_policies P> class engine {
     }
     /// Which pebbles of clumps the lists name, and which not.
     void sort_pebbles() {
-        if constexpr (!specimen_type::turns) return; // bodies are their pebbles
+        if constexpr (!body_type::turns) return; // bodies are their pebbles
         std::vector<std::uint8_t> named(grains.pebble_count(), 0);
         const auto name = [&](const contact_list<history>& list, const std::vector<wall_row>& wall) {
             for (const pebble_pair& p : list.pairs) named[at(p.i)] = named[at(p.j)] = 1;
@@ -1461,7 +1461,7 @@ template <triaxial_policies P> class engine {
             const contacts::overlap<double> any{0, 0, 1, 0, 1, 1};
             const double shear = settings.grain_contact.shear_stiffness(any),
                          normal = std::max(settings.grain_contact.normal_stiffness(any), shear);
-            const double turning = specimen_type::turns ? normal : shear; // of a sphere forces along n have no arm
+            const double turning = body_type::turns ? normal : shear; // of a sphere forces along n have no arm
             const double reach = grains.bounding_radius(g);
             const vec3 inertia = grains.body_inertia(g);
             const double largest = std::max(normal / grains.body_mass(g),

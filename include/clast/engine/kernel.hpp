@@ -21,7 +21,7 @@
 #include <clast/core/lanes.hpp>
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/engine/contact_list.hpp>
+#include <clast/bodies/contact_list.hpp>
 
 namespace clast {
 

@@ -12,8 +12,8 @@
 
 #include <clast/core/parallel.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/engine/contact_list.hpp>
-#include <clast/engine/specimen.hpp>
+#include <clast/bodies/contact_list.hpp>
+#include <clast/bodies/concepts.hpp>
 #include <clast/searches/concepts.hpp>
 
 namespace clast {
@@ -49,7 +49,7 @@ struct search_spheres {
 
 /// Makes the lists of pairs of pebbles whose gap is less than a margin (m). `Periodic`: pairs say which image of their
 /// second pebble is meant, in a cell with these edges (m).
-template <specimen_type S, bool Periodic> class pebble_pairs {
+template <bodies::swept S, bool Periodic> class pebble_pairs {
   public:
     pebble_pairs(const S& grains, double margin, const vec3& edges, const execution& run)
         : grains_(grains), margin_(margin), edges_(edges), run_(run) {}

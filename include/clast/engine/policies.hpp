@@ -4,6 +4,8 @@
 
 #include <concepts>
 
+#include <clast/bodies/clumps.hpp>
+#include <clast/bodies/concepts.hpp>
 #include <clast/boundaries/concepts.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/concepts.hpp>
@@ -11,7 +13,6 @@
 #include <clast/criteria/concepts.hpp>
 #include <clast/criteria/nominal_force.hpp>
 #include <clast/criteria/none.hpp>
-#include <clast/engine/specimen.hpp>
 #include <clast/replacements/concepts.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
@@ -28,7 +29,7 @@ struct triaxial_policies_default {
     using replacement = replacements::modified;
     using boundary = boundaries::tiles;
     using search = searches::cell_grid;
-    using specimen = clast::specimen; // of clumps; sphere_specimen: spheres that never break
+    using body = bodies::clumps; // or bodies::spheres, which never break
 };
 
 /// A complete bundle. A policy that is missing or does not satisfy its own concept is named by the compiler.
@@ -36,6 +37,6 @@ template <class P>
 concept triaxial_policies = contacts::contact_law<typename P::contact> &&
     replacements::replacement<typename P::replacement> && criteria::criterion<typename P::breakage> &&
     boundaries::boundary<typename P::boundary> && searches::search<typename P::search> &&
-    specimen_type<typename P::specimen> &&(P::specimen::turns || !P::replacement::makes_bonds);
+    bodies::swept<typename P::body> &&(P::body::turns || !P::replacement::makes_bonds);
 
 } // namespace clast

@@ -12,7 +12,7 @@
 
 #include <clast/boundaries/touch.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/engine/contact_list.hpp>
+#include <clast/bodies/contact_list.hpp>
 #include <clast/io/archive.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -42,7 +42,7 @@ template <class Engine> void add_grains(hash_archive& a, const Engine& e) {
     for (std::size_t p = 0; p < s.pebble_count(); ++p)
         a(s.pebbles[p].x, s.pebbles[p].radius, static_cast<std::uint64_t>(s.body_of(static_cast<std::int32_t>(p))));
     const auto add = [&a](const auto& body) { a(body.v, body.w, body.x); };
-    if constexpr (Engine::specimen_type::turns) {
+    if constexpr (Engine::body_type::turns) {
         // what is left in the tables of bodies that are no more decides nothing
         for (std::size_t g = 0; g < s.body_count(); ++g)
             if (s.is_swept(g)) add(s.motion[g]), a(s.turning[g].q, s.turning[g].l);
@@ -114,7 +114,7 @@ template <class Engine> hash_archive add_state(Engine& e) {
 ///
 /// - pebbles by number: x, radius, body; then v, w, x of the bodies that move, clumps before balls, and q and l of
 ///   clumps; losses of all bodies
-/// - of a breakable specimen: fragment, balls, bonded; per shape the grains of clusters, and their intact bonds
+/// - of a breakable scene: fragment, balls, bonded; per shape the grains of clusters, and their intact bonds
 /// - listed pairs of clumps, then those with a ball, each by (i, j, image), with their histories
 /// - the boundary: volume, height, section, velocity and area of facets, their corners; or edges of a cell and their
 /// speeds

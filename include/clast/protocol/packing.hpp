@@ -12,7 +12,7 @@
 
 #include <clast/core/errors.hpp>
 #include <clast/core/random.hpp>
-#include <clast/engine/specimen.hpp>
+#include <clast/bodies/clumps.hpp>
 
 namespace clast::protocol {
 
@@ -27,7 +27,7 @@ struct cylinder {
 /// circumscribed spheres overlapping (random sequential addition; paper section 2.3, Fig. 2). Grains are numbered along
 /// z, then by angle, so that neighbours in space are neighbours in memory. The same seed gives the same cloud.
 /// Throws input_error if the cylinder cannot take that many (possible up to about 30 % of sphere volume).
-inline void add_cloud(specimen& s, std::int32_t shape_index, std::size_t count, const cylinder& room,
+inline void add_cloud(bodies::clumps& s, std::int32_t shape_index, std::size_t count, const cylinder& room,
                       std::uint64_t seed) {
     const shape& grain_shape = s.shapes[static_cast<std::size_t>(shape_index)];
     const double rc = grain_shape.circumscribed_radius, apart = 2.0 * rc;

@@ -174,7 +174,7 @@ template <triaxial_policies P> class runner {
     /// Pebbles for pictures; displacement counts from the reference state (0 before it).
     std::vector<pebble_view> pebbles() {
         sim.place_all();
-        const specimen& s = sim.grains;
+        const bodies::clumps& s = sim.grains;
         std::vector<pebble_view> out(s.pebble_count());
         for (std::size_t p = 0; p < out.size(); ++p) {
             const auto g = static_cast<std::size_t>(s.mother[p]);
@@ -414,7 +414,7 @@ template <triaxial_policies P> class runner {
 
     /// Stops the run where the specimen is no longer one.
     void check_specimen() {
-        const specimen& s = sim.grains;
+        const bodies::clumps& s = sim.grains;
         for (std::size_t p = 0; p < s.pebble_count(); ++p) {
             const auto owner = static_cast<std::size_t>(s.owner[p]);
             // clumps are looked at by their centre, balls by their own

@@ -239,7 +239,7 @@ template <triaxial_policies P> class triaxial_test {
         return m;
     }
     static engine<P> make_engine(const triaxial_setup<P>& s) {
-        specimen sp;
+        bodies::clumps sp;
         sp.density = s.materials.density;
         sp.shapes.push_back(s.grain);
         const double r = 0.5 * s.diameter.si(), h = s.height.si();

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/periodic_cell.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
@@ -60,7 +61,7 @@ struct clumps {
 struct spheres {
     struct policies : triaxial_policies_default {
         using contact = contacts::linear_dashpot;
-        using specimen = sphere_specimen;
+        using body = bodies::spheres;
         using boundary = boundaries::periodic_cell;
         using breakage = criteria::none;
         using replacement = replacements::none;
@@ -71,7 +72,7 @@ struct spheres {
 
     static engine<policies> start(int threads) {
         constexpr int n = 7;
-        sphere_specimen s;
+        bodies::spheres s;
         for (int k = 0; k < n * n * n; ++k) {
             const auto at = [](int i) { return 0.0205 * (i - 0.5 * (n - 1)); };
             random_stream random{3, static_cast<std::uint64_t>(k)};
@@ -115,7 +116,7 @@ template <class P> state state_of(engine<P>& e) {
     const auto add = [](std::vector<double>& to, const vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); };
     for (const auto& p : e.grains.pebbles) add(s.places, p.x);
     const auto& bodies = [&]() -> const auto& {
-        if constexpr (P::specimen::turns)
+        if constexpr (P::body::turns)
             return e.grains.motion;
         else
             return e.grains.pebbles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clast/engine/contact_list.hpp>
+#include <clast/bodies/contact_list.hpp>
 
 #include <functional>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clast/engine/clump_strip.hpp>
+#include <clast/bodies/clump_strip.hpp>
 
 #include <cmath>
 #include <cstring>

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The pebbles and bodies of a specimen, and how bodies move. Pebbles are for ever; owners change.
+// Clumps of pebbles, and balls where they break: their tables, and how clumps move. Pebbles are for ever; owners
+// change.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include <clast/bodies/clump_strip.hpp>
+#include <clast/bodies/concepts.hpp>
+#include <clast/bodies/contact_list.hpp>
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/engine/clump_strip.hpp>
-#include <clast/engine/contact_list.hpp>
 #include <clast/grains/shape.hpp>
-#include <clast/integrators/local_damping.hpp>
 #include <clast/integrators/rotation.hpp>
 
 namespace clast {
@@ -35,52 +35,11 @@ struct alignas(32) clump_rotation {
     double spare = 0.0;
 };
 
-/// Energy that a body has lost so far (J).
-struct body_losses {
-    double friction = 0.0;
-    double damping = 0.0;
-};
-
-/// A body that is about to move, and what acts on it.
-struct moving_body {
-    std::size_t body = 0;
-    load_sum load;
-};
-
-/// How far bodies have gone of the way for which contact lists allow.
-enum class margin_use { within, used_up, not_finite };
-/// The same for a way (m) and its margin (m), or for the squares of both.
-inline margin_use use_of(double way, double margin) {
-    if (way < margin) return margin_use::within;
-    return std::isfinite(way) ? margin_use::used_up : margin_use::not_finite;
-}
-/// Ways of bodies count from `since`, in a space that has been stretched in between, and may be as long as `margins`
-/// (m).
-template <class Reference> struct allowance {
-    std::span<const Reference> since; ///< per body
-    std::span<const double> margins;  ///< per body
-    vec3 stretch;
-};
-
-/// Items of every body, side by side: those of body b are items[start[b]] to items[start[b + 1] - 1].
-struct body_items {
-    std::vector<std::uint32_t> start;
-    std::vector<std::int32_t> items;
-
-    std::span<const std::int32_t> of(std::size_t body) const {
-        return {items.data() + start[body], items.data() + start[body + 1]};
-    }
-    /// Makes room for a number of items, and one to spare.
-    void resize(std::size_t bodies, std::size_t count) {
-        start.assign(bodies + 1, 0);
-        items.resize(count + 1);
-    }
-    template <class A> void archive(A& a) { a(start, items); }
-};
+namespace bodies {
 
 /// Grains, pebbles and their bodies. Body g (g < grains) is the clump of grain g; body grains + p is the ball of pebble
 /// p, which exists only in a breakable specimen. `owner` says which of them moves a pebble now.
-struct specimen {
+struct clumps {
     std::vector<shape> shapes;
     double density = 2650.0; ///< kg/m^3
 
@@ -140,8 +99,7 @@ struct specimen {
         return id;
     }
 
-    // ---- what an engine asks of bodies that are swept (here clumps)
-    // --------------------------------------------------
+    // ---- what an engine asks of bodies that it sweeps (here clumps) ------------------------------------------------
     static constexpr bool turns = true; ///< bodies have an orientation
 
     /// What displacements are measured from: centre and orientation at the last renewal of the lists.
@@ -342,148 +300,7 @@ struct specimen {
     }
 };
 
-/// Spheres that move on their own, nothing else: no grain, no orientation, no owner, and no memory for them. A body is
-/// its pebble, and the pebble holds the body's motion.
-struct sphere_specimen {
-    double density = 2650.0; ///< kg/m^3
-    std::vector<pebble_motion> pebbles;
-    std::vector<body_losses> losses;
+static_assert(swept<clumps>);
 
-    static constexpr bool turns = false;
-    struct reference {
-        vec3 centre;
-    };
-
-    /// Adds a sphere at rest and returns its number.
-    std::int32_t add(const vec3& centre, double radius) {
-        pebbles.push_back({centre,
-                           radius,
-                           {},
-                           1.0 / (density * sphere_volume(radius)),
-                           {},
-                           1.0 / (density * sphere_inertia_per_density(radius))});
-        losses.push_back({});
-        return static_cast<std::int32_t>(pebbles.size() - 1);
-    }
-    std::size_t pebble_count() const { return pebbles.size(); }
-    std::size_t grain_count() const { return pebbles.size(); }
-    double solid_volume() const {
-        double v = 0.0;
-        for (const pebble_motion& p : pebbles) v += sphere_volume(p.radius);
-        return v;
-    }
-
-    std::size_t body_count() const { return pebbles.size(); }
-    static constexpr bool is_swept(std::size_t) { return true; }
-    static constexpr std::size_t body_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
-    static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
-    sphere_view view() const { return {pebbles.data()}; }
-    const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
-    const vec3& centre(std::size_t b) const { return pebbles[b].x; }
-    double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
-    index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
-    double body_mass(std::size_t b) const { return 1.0 / pebbles[b].inverse_mass; }
-    vec3 body_inertia(std::size_t b) const {
-        const double i = 1.0 / pebbles[b].inverse_inertia;
-        return {i, i, i};
-    }
-    mat3 body_axes(std::size_t) const { return mat3::identity(); }
-    double kinetic_energy(std::size_t b) const {
-        const pebble_motion& p = pebbles[b];
-        return 0.5 * (norm2(p.v) / p.inverse_mass + norm2(p.w) / p.inverse_inertia);
-    }
-    reference refer(std::size_t b) const { return {pebbles[b].x}; }
-    double moved(std::size_t b, const reference& since, const vec3& stretch) const {
-        return norm(pebbles[b].x - scale(stretch, since.centre));
-    }
-    double surface_speed(std::size_t b, const vec3& rate) const {
-        return norm(pebbles[b].v - scale(rate, pebbles[b].x)); // to spin brings a sphere no nearer
-    }
-    /// As for clumps; there is no pebble to be placed, and `further` is not asked.
-    template <class Further>
-    margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
-                       const allowance<reference>& allowed, Further&&) {
-        return with_widest_registers([ =, this, &allowed ](auto width) __attribute__((always_inline)) {
-            return this->move(width, bodies, h, damping, allowed);
-        });
-    }
-    void place(std::size_t) {}
-    void place(std::size_t, std::span<const std::int32_t>) {}
-    void shift(std::size_t b, const vec3& by, const vec3& faster) { pebbles[b].x += by, pebbles[b].v += faster; }
-    double smallest_mass() const {
-        double most = 0.0;
-        for (const pebble_motion& p : pebbles) most = std::max(most, p.inverse_mass);
-        return 1.0 / most;
-    }
-
-    template <class A> void archive(A& a) { a(density, pebbles, losses); }
-
-  private:
-    template <std::size_t N, std::size_t Loop>
-    [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies, double h,
-                                           double damping, const allowance<reference>& allowed) {
-        using row = quad<N>;
-        const auto dot = [](const row& a, const row& b) __attribute__((always_inline)) {
-            return clast::dot(vec3{a[0], a[1], a[2]}, vec3{b[0], b[1], b[2]});
-        };
-        // held by value, or they would be read again behind every store
-        pebble_motion* const all = pebbles.data();
-        body_losses* const all_losses = losses.data();
-        const vec3 stretch = allowed.stretch;
-        const double* const margins = allowed.margins.data();
-        const reference* const since = allowed.since.data();
-        margin_use use = margin_use::within;
-        for (const moving_body& one : bodies) {
-            pebble_motion& p = all[one.body];
-            body_losses& lost = all_losses[one.body];
-            const row x0 = row::load(&p.x), v0 = row::load(&p.v), w0 = row::load(&p.w);
-            row force = row::load(&one.load.force), moment = row::load(&one.load.moment), df, dm;
-            lost.friction += one.load.dissipated;
-            if (damping != 0.0) {
-                df = damping_force(force, v0, damping), dm = damping_force(moment, w0, damping);
-                force += df, moment += dm;
-            }
-            const row v = v0 + (h * p.inverse_mass) * force, w = w0 + (h * p.inverse_inertia) * moment;
-            if (damping != 0.0) lost.damping -= 0.5 * h * (dot(df, v0 + v) + dot(dm, w0 + w));
-            const row x = x0 + h * v;
-            x.with_fourth_of(x0).store(&p.x), v.with_fourth_of(v0).store(&p.v), w.with_fourth_of(w0).store(&p.w);
-            const double margin = margins[one.body];
-            const vec3 way = vec3{x[0], x[1], x[2]} - scale(stretch, since[one.body].centre);
-            use = std::max(use, use_of(norm2(way), margin * margin));
-        }
-        return use;
-    }
-};
-
-/// What an engine sweeps: `specimen` (clumps, which may break) or `sphere_specimen`.
-template <class S>
-concept specimen_type = std::movable<S> &&
-    requires(S& s, const S& c, std::size_t b, vec3 x, double h, const body_items& wanted) {
-    { S::turns } -> std::convertible_to<bool>;
-    { c.body_count() } -> std::same_as<std::size_t>;
-    { c.is_swept(b) } -> std::same_as<bool>;
-    { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
-    { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;
-    { c.velocity_of(std::int32_t{}) } -> std::convertible_to<vec3>;
-    c.view();
-    { c.centre(b) } -> std::convertible_to<vec3>;
-    { c.bounding_radius(b) } -> std::same_as<double>;
-    { c.pebbles_of(b) } -> std::same_as<index_range>;
-    { c.body_mass(b) } -> std::same_as<double>;
-    { c.body_inertia(b) } -> std::same_as<vec3>;
-    { c.body_axes(b) } -> std::same_as<mat3>;
-    { c.kinetic_energy(b) } -> std::same_as<double>;
-    { c.refer(b) } -> std::same_as<typename S::reference>;
-    { c.moved(b, c.refer(b), x) } -> std::same_as<double>;
-    { c.surface_speed(b, x) } -> std::same_as<double>;
-    {
-        s.advance(std::span<const moving_body>{}, h, h, wanted, allowance<typename S::reference>{},
-                  [](std::size_t) { return 0.0; })
-        } -> std::same_as<margin_use>;
-    s.place(b);
-    s.place(b, std::span<const std::int32_t>{});
-    s.shift(b, x, x);
-};
-static_assert(specimen_type<specimen> && specimen_type<sphere_specimen>);
-
+} // namespace bodies
 } // namespace clast

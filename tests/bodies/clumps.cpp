@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clast/engine/specimen.hpp>
+#include <clast/bodies/clumps.hpp>
 
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@
 using namespace clast;
 
 TEST_CASE("a clump that is added has its pebbles in a row, turned and moved, and owns them") {
-    specimen s;
+    bodies::clumps s;
     s.shapes = {shapes::tetrahedron_4(0.02), shapes::sphere(0.01)};
     const quaternion q = unit(quaternion{1.0, 0.2, -0.5, 0.4});
     CHECK(s.add(1, {1, 2, 3}, {}) == 0);
@@ -35,7 +35,7 @@ TEST_CASE("a clump that is added has its pebbles in a row, turned and moved, and
 }
 
 TEST_CASE("mass, inertia and solid volume are those of the pebbles") {
-    specimen s;
+    bodies::clumps s;
     s.density = 2000.0;
     s.shapes = {shapes::sphere(0.02)};
     s.add(0, {}, {});
@@ -49,7 +49,7 @@ TEST_CASE("mass, inertia and solid volume are those of the pebbles") {
 }
 
 TEST_CASE("a specimen comes back from an archive") {
-    specimen s, copy;
+    bodies::clumps s, copy;
     s.shapes = {shapes::apollonian_14(0.02)};
     s.add(0, {1, 2, 3}, unit(quaternion{1.0, 0.2, -0.5, 0.4}));
     s.turning[0].l = {1, 2, 3};
@@ -61,13 +61,13 @@ TEST_CASE("a specimen comes back from an archive") {
 }
 
 TEST_CASE("clumps move as one alone, however many move together, and their wanted pebbles follow") {
-    specimen s;
+    bodies::clumps s;
     s.shapes = {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.03)};
     random_stream random{5, 1};
     const auto any = [&](double size) { return uniform(random, 0.0, size) * direction(random); };
     constexpr std::size_t n = 23; // a whole strip, a whole block of four, and three more
     std::vector<moving_body> bodies;
-    std::vector<specimen::reference> since;
+    std::vector<bodies::clumps::reference> since;
     body_items wanted{{0}, {}};
     for (std::size_t g = 0; g < n; ++g) {
         s.add(g % 3 == 0 ? 1 : 0, any(1.0), orientation(random));
@@ -84,10 +84,10 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     const vec3 stretch{1.001, 0.999, 1.0};
     const auto further = [](std::size_t g) { return 1e-3 * static_cast<double>(g); };
     std::vector<double> margins(n, 1.0);
-    const auto move = [&](specimen& some, std::span<const moving_body> which) {
+    const auto move = [&](bodies::clumps& some, std::span<const moving_body> which) {
         return some.advance(which, h, damping, wanted, {since, margins, stretch}, further);
     };
-    specimen together = s, alone = s;
+    bodies::clumps together = s, alone = s;
     CHECK(move(together, bodies) == margin_use::within);
     const auto way = [&](std::size_t g) { return together.moved(g, since[g], stretch) + further(g); };
     for (std::size_t g = 0; g < n; ++g) margins[g] = (1.0 + 1e-9) * way(g);
@@ -119,62 +119,12 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     CHECK(checksum(together) == checksum(alone));
 
     for (std::size_t g : {std::size_t{7}, n - 1}) { // one body that has gone too far is enough
-        specimen again = s;
+        bodies::clumps again = s;
         margins[g] = (1.0 - 1e-9) * way(g);
         CHECK(move(again, bodies) == margin_use::used_up);
         margins[g] = 1.0;
     }
-    specimen lost = s;
+    bodies::clumps lost = s;
     lost.motion[7].v.x = std::numeric_limits<double>::quiet_NaN();
     CHECK(move(lost, bodies) == margin_use::not_finite);
-}
-
-TEST_CASE("spheres move by the loads that act on them, damped or not, and say how far they have gone") {
-    for (const double damping : {0.0, 0.7}) {
-        sphere_specimen s;
-        random_stream random{7, 1};
-        const auto any = [&](double size) { return uniform(random, 0.0, size) * direction(random); };
-        std::vector<moving_body> bodies;
-        std::vector<sphere_specimen::reference> since;
-        constexpr std::size_t n = 11;
-        for (std::size_t b = 0; b < n; ++b) {
-            s.add(any(1.0), uniform(random, 0.005, 0.01));
-            since.push_back(s.refer(b));
-            s.pebbles[b].x += any(1e-5);
-            if (b != 3) s.pebbles[b].v = any(0.1), s.pebbles[b].w = any(10.0); // one is at rest
-            bodies.push_back({n - 1 - b, {any(10.0), any(0.1), 0.5 * static_cast<double>(b)}});
-        }
-        const double h = 1e-5;
-        const vec3 stretch{1.0 + 1e-6, 1.0, 1.0 - 1e-6};
-        const sphere_specimen before = s;
-        std::vector<double> margins(n, 1.0);
-        const auto move = [&] {
-            s = before;
-            return s.advance(bodies, h, damping, {}, {since, margins, stretch}, [](std::size_t) { return 0.0; });
-        };
-        CHECK(move() == margin_use::within);
-        for (const moving_body& one : bodies) {
-            const pebble_motion &old = before.pebbles[one.body], &now = s.pebbles[one.body];
-            const vec3 df = damping_force(one.load.force, old.v, damping),
-                       dm = damping_force(one.load.moment, old.w, damping);
-            // the same operations in the same order: the same bits
-            CHECK(now.v == old.v + (h * old.inverse_mass) * (one.load.force + df));
-            CHECK(now.w == old.w + (h * old.inverse_inertia) * (one.load.moment + dm));
-            CHECK(now.x == old.x + h * now.v);
-            CHECK(now.radius == old.radius);
-            CHECK(now.inverse_mass == old.inverse_mass);
-            CHECK(now.inverse_inertia == old.inverse_inertia);
-            const body_losses& lost = s.losses[one.body];
-            CHECK(lost.friction == one.load.dissipated);
-            CHECK(lost.damping == Approx(-0.5 * h * (dot(df, old.v + now.v) + dot(dm, old.w + now.w))).margin(0.0));
-            CHECK((lost.damping != 0.0) == (damping > 0.0 && one.body != 3));
-        }
-        for (std::size_t b = 0; b < n; ++b)
-            margins[b] = (1.0 + 1e-9) * norm(s.pebbles[b].x - scale(stretch, since[b].centre));
-        CHECK(move() == margin_use::within);
-        margins[5] *= 1.0 - 2e-9;
-        CHECK(move() == margin_use::used_up);
-        bodies[2].load.force.y = std::numeric_limits<double>::quiet_NaN();
-        CHECK(move() == margin_use::not_finite);
-    }
 }
