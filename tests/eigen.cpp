@@ -28,9 +28,9 @@ double difference(const vec3& a, const Eigen::Vector3d& b) { return (to_eigen(a)
 double difference(const mat3& a, const Eigen::Matrix3d& b) { return (to_eigen(a) - b).lpNorm<Eigen::Infinity>(); }
 
 // clumps with their pebbles, anywhere and moving
-specimen some_clumps(int n) {
+bodies::clumps some_clumps(int n) {
     random_stream random{5, 6};
-    specimen s;
+    bodies::clumps s;
     s.shapes = {shapes::tetrahedron_4(0.02)};
     for (int i = 0; i < n; ++i) s.add(0, any(random), orientation(random));
     for (body_motion& m : s.motion) m.v = any(random), m.w = any(random);
@@ -117,7 +117,7 @@ TEST_CASE("a map of a vector or a matrix is the thing itself") {
 }
 
 TEST_CASE("the rows of a table are the vectors of its records") {
-    const specimen clumps = some_clumps(20);
+    const bodies::clumps clumps = some_clumps(20);
     const auto centres = rows_of(clumps.pebbles, &clump_pebble::x);
     REQUIRE(centres.rows() == 80);
     REQUIRE(centres.cols() == 3);
@@ -138,7 +138,7 @@ TEST_CASE("the rows of a table are the vectors of its records") {
 }
 
 TEST_CASE("what is written through the rows of a table is in the table, and nothing else is") {
-    sphere_specimen spheres;
+    bodies::spheres spheres;
     random_stream random{7, 8};
     for (int i = 0; i < 10; ++i) spheres.add(any(random), 0.1 + 0.01 * i);
     const std::vector<pebble_motion> before = spheres.pebbles;

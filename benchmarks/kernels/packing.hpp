@@ -14,12 +14,12 @@
 #include <utility>
 
 #include <clast/bodies/spheres.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/engine/engine.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/replacements/none.hpp>
+#include <clast/spaces/periodic.hpp>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -29,7 +29,8 @@ namespace kernels {
 
 struct spheres : clast::triaxial_policies_default {
     using body = clast::bodies::spheres;
-    using boundary = clast::boundaries::periodic_cell;
+    using boundary = clast::boundaries::none;
+    using space = clast::spaces::periodic;
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };
@@ -59,7 +60,7 @@ inline const clast::vec3 shear{0.7, 0.7, -1.4}; ///< rates of extension (1/s): I
 template <class P>
 clast::engine<P> make_engine(typename P::body grains, const clast::vec3& edges, const clast::vec3& rates,
                              const request& wanted) {
-    clast::boundaries::periodic_cell cell(edges);
+    clast::spaces::periodic cell(edges);
     for (std::size_t a = 0; a < 3; ++a) cell.axes[a].rate = rates[static_cast<int>(a)];
     return clast::engine<P>({.grain_contact = law,
                              .platen_contact = law,
@@ -85,10 +86,10 @@ template <class P, class Add> clast::engine<P> compressed(typename P::body grain
     clast::engine<P> e =
         make_engine<P>(std::move(grains), {gap * side, gap * side, gap * side}, {-fast, -fast, -fast}, calm);
     e.set_friction(0.0);
-    for (auto& axis : e.boundary.axes) axis.target = calm.stress, axis.max_rate = fast;
+    for (auto& axis : e.space.axes) axis.target = calm.stress, axis.max_rate = fast;
     for (int rounds = 0; rounds < 100; ++rounds) {
         e.step(200);
-        const clast::vec3 off = e.boundary.stress() / calm.stress - clast::vec3{1.0, 1.0, 1.0};
+        const clast::vec3 off = e.space.stress() / calm.stress - clast::vec3{1.0, 1.0, 1.0};
         if (rounds > 10 && clast::norm(off) < 0.02) break;
     }
     return e;
@@ -120,7 +121,7 @@ inline const clast::engine<clumps>& base_of_clumps(int pebbles) {
 
 /// copies^3 times the base, in pure shear.
 template <class P> clast::engine<P> repeated(const clast::engine<P>& base, int copies, const request& wanted) {
-    const clast::vec3 edges = base.boundary.edges();
+    const clast::vec3 edges = base.space.edges();
     typename P::body grains;
     grains.density = base.grains.density;
     if constexpr (P::body::turns) grains.shapes = base.grains.shapes;

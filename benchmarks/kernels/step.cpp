@@ -34,7 +34,7 @@ void measure(benchmark::State& state, const clast::engine<P>& base, std::int64_t
     const clast::engine<P>& e = *kept;
     // shear without end would make the cell flatter than its grains: begin again before it has become half as high
     const auto height = [](const clast::engine<P>& one) {
-        const clast::vec3 edges = one.boundary.edges();
+        const clast::vec3 edges = one.space.edges();
         return std::min({edges.x, edges.y, edges.z}) / std::cbrt(edges.x * edges.y * edges.z);
     };
     std::int64_t renewals = 0, searches = 0;
@@ -56,8 +56,8 @@ void measure(benchmark::State& state, const clast::engine<P>& base, std::int64_t
     const double bodies = static_cast<double>(e.grains.body_count());
     state.SetItemsProcessed(batch * state.iterations() * static_cast<std::int64_t>(bodies));
     state.counters["n"] = bodies;
-    state.counters["phi"] = e.grains.solid_volume() / e.boundary.volume();
-    state.counters["pairs_per_grain"] = static_cast<double>(e.slow_contacts().size()) / bodies;
+    state.counters["phi"] = e.grains.solid_volume() / e.space.volume();
+    state.counters["pairs_per_grain"] = static_cast<double>(e.heavy_contacts().size()) / bodies;
     const auto per_1000_steps = [&](std::int64_t many) {
         return 1000.0 * static_cast<double>(many) / static_cast<double>(batch * state.iterations());
     };
@@ -83,7 +83,7 @@ template <class P> void renew(benchmark::State& state, const clast::engine<P>& b
     for (auto _ : state) e.set_boundary(e.boundary);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(e.grains.body_count()));
     state.counters["pairs_per_grain"] =
-        static_cast<double>(e.slow_contacts().size()) / static_cast<double>(e.grains.body_count());
+        static_cast<double>(e.heavy_contacts().size()) / static_cast<double>(e.grains.body_count());
 }
 void sphere_rebuild(benchmark::State& state) { renew(state, kernels::base_of_spheres(), state.range(0)); }
 void clump_rebuild(benchmark::State& state) {

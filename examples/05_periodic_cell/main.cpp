@@ -5,8 +5,9 @@
 #include <fmt/core.h>
 
 struct element : clast::triaxial_policies_default {
-    using body = clast::bodies::spheres;           // single spheres: no clump, no orientation
-    using boundary = clast::boundaries::periodic_cell; // no facet
+    using body = clast::bodies::spheres; // single spheres: no clump, no orientation
+    using boundary = clast::boundaries::none;
+    using space = clast::spaces::periodic;
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };
@@ -27,18 +28,18 @@ int main() {
                               .breakage = {},
                               .replacement = {},
                               .damping = 0.5},
-                             spheres, clast::boundaries::periodic_cell({0.022 * n, 0.022 * n, 0.022 * n}));
+                             spheres, clast::spaces::periodic({0.022 * n, 0.022 * n, 0.022 * n}));
     const auto report = [&](const char* when) {
-        const clast::mat3 s = clast::measure::love_weber(e, e.boundary.volume());
+        const clast::mat3 s = clast::measure::love_weber(e, e.space.volume());
         fmt::print("{}: stress {:.1f} {:.1f} {:.1f} kPa, coordination {:.2f}, porosity {:.3f}\n", when, s(0, 0) / 1e3,
                    s(1, 1) / 1e3, s(2, 2) / 1e3, clast::measure::contacts_of(e).coordination,
-                   1.0 - e.grains.solid_volume() / e.boundary.volume());
+                   1.0 - e.grains.solid_volume() / e.space.volume());
         return s(2, 2) - s(0, 0);
     };
-    for (auto& axis : e.boundary.axes) axis = {.target = 50e3, .max_rate = 2.0, .gain = 0.2}; // Pa, 1/s
+    for (auto& axis : e.space.axes) axis = {.target = 50e3, .max_rate = 2.0, .gain = 0.2}; // Pa, 1/s
     while (e.time() < 0.3) e.step();
     report("isotropic");
-    e.boundary.axes[2] = {.rate = -0.2}; // 1/s, extension positive; x and y stay at 50 kPa
+    e.space.axes[2] = {.rate = -0.2}; // 1/s, extension positive; x and y stay at 50 kPa
     while (e.time() < 0.5) e.step();
     return report("compressed") > 0.0 ? 0 : 1;
 }

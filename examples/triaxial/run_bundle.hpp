@@ -228,7 +228,7 @@ template <class P> int run_bundle(const options& o, const char* name) {
                    .checksum = clast::measure::digest_of_state(test.sim()),
                    .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
                             {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
-                            {"sub_steps_of_light_bodies", static_cast<double>(test.sim().fast_steps())},
+                            {"sub_steps_of_light_bodies", static_cast<double>(test.sim().light_steps())},
                             {"tile_steps_at_speed_limit_share",
                              counters.tile_steps > 0
                                  ? static_cast<double>(counters.capped) / static_cast<double>(counters.tile_steps)

@@ -5,7 +5,7 @@
 #include <clast/bodies/clumps.hpp>
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
+#include <clast/boundaries/none.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
@@ -21,4 +21,6 @@
 #include <clast/searches/brute_force.hpp>
 #include <clast/searches/cell_grid.hpp>
 #include <clast/searches/hierarchical_grid.hpp>
+#include <clast/spaces/open.hpp>
+#include <clast/spaces/periodic.hpp>
 #include <clast/version.hpp>

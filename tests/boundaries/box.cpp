@@ -16,7 +16,7 @@ using boundaries::drives;
 using boundaries::facet_load;
 using boundaries::touches;
 
-static_assert(boundaries::boundary<box> && !boundaries::periodic<box>);
+static_assert(boundaries::surface<box>);
 
 namespace {
 box unit_box() { return box({{0, 0, 0}, {1, 2, 3}, 1e8, 1e6}); }

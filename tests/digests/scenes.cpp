@@ -16,7 +16,6 @@
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
@@ -24,6 +23,7 @@
 #include <clast/engine/engine.hpp>
 #include <clast/io/archive.hpp>
 #include <clast/measure/digest.hpp>
+#include <clast/spaces/periodic.hpp>
 #include <fmt/core.h>
 
 #include "engine/scenes.hpp"
@@ -40,6 +40,11 @@ struct whole : triaxial_policies_default {
     using boundary = Boundary;
     using breakage = criteria::none;
     using replacement = replacements::none;
+};
+
+/// The same in a periodic cell.
+template <class Body, class Contact = contacts::linear> struct in_cell : whole<boundaries::none, Body, Contact> {
+    using space = spaces::periodic;
 };
 
 template <class P> engine_settings<P> cut_in_ranges(engine_settings<P> s, int threads) {
@@ -108,7 +113,7 @@ struct clumps_14_break_in_tiles {
         ::press(e, 0.2);
     }
     static bool enough(const engine<policies>& e) {
-        return e.totals().broken_tension + e.totals().broken_shear >= 20 && e.fast_contacts().size() > 0;
+        return e.totals().broken_tension + e.totals().broken_shear >= 20 && e.light_contacts().size() > 0;
     }
 };
 
@@ -152,36 +157,36 @@ struct clumps_14_in_box {
 
 /// Nothing but dashpots takes energy out.
 struct spheres_in_cell_with_dashpots {
-    using policies = whole<boundaries::periodic_cell, bodies::spheres, contacts::linear_dashpot>;
+    using policies = in_cell<bodies::spheres, contacts::linear_dashpot>;
     static constexpr std::int64_t steps = 1200;
     static engine<policies> start(int threads) {
         constexpr int n = 7;
         const contacts::linear_dashpot law{.kn = 1e6, .ks = 5e5, .mu = 0.3, .gamma = 2000.0, .density = 2700.0};
         auto s = one_law<policies>(law, 0.0, threads);
         s.safety = 0.4;
-        engine<policies> e(s, spheres(n, 0.0205), boundaries::periodic_cell({0.0205 * n, 0.0205 * n, 0.0205 * n}));
-        for (auto& axis : e.boundary.axes) axis = {.target = 5e4, .max_rate = 5.0, .gain = 0.2}; // Pa, 1/s
+        engine<policies> e(s, spheres(n, 0.0205), spaces::periodic({0.0205 * n, 0.0205 * n, 0.0205 * n}));
+        for (auto& axis : e.space.axes) axis = {.target = 5e4, .max_rate = 5.0, .gain = 0.2}; // Pa, 1/s
         e.step(2000);
         return e;
     }
-    static void press(engine<policies>& e) { e.boundary.axes[2] = {.rate = -0.5}; } // 1/s
-    static bool enough(const engine<policies>& e) { return e.boundary.stress().z > 2e4; }
+    static void press(engine<policies>& e) { e.space.axes[2] = {.rate = -0.5}; } // 1/s
+    static bool enough(const engine<policies>& e) { return e.space.stress().z > 2e4; }
 };
 
 struct clumps_4_in_cell {
-    using policies = whole<boundaries::periodic_cell>;
+    using policies = in_cell<bodies::clumps>;
     static constexpr std::int64_t steps = 1500;
     static engine<policies> start(int threads) {
         constexpr int n = 5;
         engine<policies> e(one_law<policies>({2.9e6, 1.45e6, 0.3}, 0.3, threads),
                            clumps(shapes::tetrahedron_4(0.02), n, 0.0205),
-                           boundaries::periodic_cell({0.0205 * n, 0.0205 * n, 0.0205 * n}));
-        for (auto& axis : e.boundary.axes) axis = {.target = 1e5, .max_rate = 5.0, .gain = 0.2};
+                           spaces::periodic({0.0205 * n, 0.0205 * n, 0.0205 * n}));
+        for (auto& axis : e.space.axes) axis = {.target = 1e5, .max_rate = 5.0, .gain = 0.2};
         e.step(6000);
         return e;
     }
-    static void press(engine<policies>& e) { e.boundary.axes[2] = {.rate = -1.0}; }
-    static bool enough(const engine<policies>& e) { return e.boundary.stress().z > 5e4; }
+    static void press(engine<policies>& e) { e.space.axes[2] = {.rate = -1.0}; }
+    static bool enough(const engine<policies>& e) { return e.space.stress().z > 5e4; }
 };
 
 /// A law in plain double, whose stiffness depends on the overlap, like that of example 03.

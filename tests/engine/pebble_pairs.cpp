@@ -9,6 +9,8 @@
 #include <clast/core/random.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/searches/brute_force.hpp>
+#include <clast/spaces/open.hpp>
+#include <clast/spaces/periodic.hpp>
 
 #include <catch.hpp>
 
@@ -81,12 +83,12 @@ TEST_CASE("pairs of clumps and of loose balls are those of a look at all, in the
     REQUIRE((slow.size() > 100 && fast.size() > 30));
     for (const int threads : {1, 3}) {
         const execution run(threads);
-        const auto found = pebble_pairs<bodies::clumps, false>(sp, margin, {}, run)
+        const auto found = pebble_pairs(sp, spaces::open{}, margin, run)
                                .of(spheres, searches::brute_force{}.pairs(spheres.all, margin));
-        CHECK(of(found.slow) == sorted(slow));
-        CHECK(of(found.fast) == sorted(fast));
-        CHECK((found.slow.image.empty() && found.slow.shared == 0));
-        for (const pair_list* list : {&found.slow, &found.fast})
+        CHECK(of(found.heavy) == sorted(slow));
+        CHECK(of(found.light) == sorted(fast));
+        CHECK((found.heavy.image.empty() && found.heavy.shared == 0));
+        for (const pair_list* list : {&found.heavy, &found.light})
             CHECK(std::is_sorted(list->pairs.begin(), list->pairs.end(),
                                  [&](const auto& a, const auto& b) { return in_order(sp, a, b); }));
     }
@@ -118,8 +120,8 @@ TEST_CASE("in a periodic cell every pair is found once, with the image that is n
         std::count_if(expected.begin(), expected.end(), [](const named& n) { return n.image != no_shift; });
     REQUIRE(across > 30);
     const execution run(1);
-    const auto found = pebble_pairs<bodies::clumps, true>(sp, margin, edges, run)
+    const auto found = pebble_pairs(sp, spaces::periodic(edges), margin, run)
                            .of(spheres, searches::brute_force{}.pairs(spheres.all, margin));
-    CHECK(of(found.slow) == sorted(expected));
-    CHECK(found.fast.size() == 0);
+    CHECK(of(found.heavy) == sorted(expected));
+    CHECK(found.light.size() == 0);
 }

@@ -7,6 +7,7 @@
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/criteria/one_of.hpp>
 #include <clast/searches/brute_force.hpp>
+#include <clast/spaces/periodic.hpp>
 
 #include <catch.hpp>
 
@@ -40,14 +41,21 @@ struct wrong_criterion : triaxial_policies_default {
 struct wrong_replacement : triaxial_policies_default {
     using replacement = criteria::none;
 };
+struct wrong_space : triaxial_policies_default {
+    using space = boundaries::tiles;
+};
+struct clusters_in_a_cell : triaxial_policies_default {
+    using space = spaces::periodic;
+};
 struct incomplete {
     using contact = contacts::linear;
 };
-static_assert(triaxial_policies<triaxial_policies_default>);
-static_assert(triaxial_policies<other_membrane> && triaxial_policies<rigid>);
-static_assert(!triaxial_policies<wrong_contact> && !triaxial_policies<wrong_boundary>);
-static_assert(!triaxial_policies<wrong_search> && !triaxial_policies<wrong_criterion>);
-static_assert(!triaxial_policies<wrong_replacement> && !triaxial_policies<incomplete> && !triaxial_policies<int>);
+static_assert(simulator_policies<triaxial_policies_default>);
+static_assert(simulator_policies<other_membrane> && simulator_policies<rigid>);
+static_assert(!simulator_policies<wrong_contact> && !simulator_policies<wrong_boundary>);
+static_assert(!simulator_policies<wrong_search> && !simulator_policies<wrong_criterion>);
+static_assert(!simulator_policies<wrong_replacement> && !simulator_policies<incomplete> &&
+              !simulator_policies<wrong_space> && !simulator_policies<clusters_in_a_cell> && !simulator_policies<int>);
 } // namespace
 
 TEST_CASE("a bundle is the paper's by default, and what is overridden changes nothing else") {

@@ -117,6 +117,52 @@ engine<P> packed(engine_settings<P> s, const shape& grain, std::size_t count, do
     return e;
 }
 
+/// What an audit cannot explain (J).
+template <class P> double residual(const engine<P>& e) {
+    const engine_totals& t = e.totals();
+    const body_losses lost = e.losses();
+    return t.boundary_work + t.initial_energy - e.kinetic_energy() - e.elastic_energy() - lost.friction - lost.damping -
+           t.bond_dissipation;
+}
+
+/// Two tumbling clumps that hit each other off centre, far from any wall.
+template <class P> engine<P> collision(engine_settings<P> s, const shape& grain = shapes::tetrahedron_4(0.02)) {
+    bodies::clumps sp = empty(grain);
+    sp.add(0, {-0.011, 0.002, 0.001}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
+    sp.add(0, {0.011, -0.003, 0.002}, unit(quaternion{0.4, -0.7, 0.6, 0.1}));
+    sp.motion[0].v = {1.0, 0.1, -0.2};
+    sp.motion[1].v = {-0.8, 0.3, 0.1};
+    sp.turning[0].l = {2e-6, -1e-6, 3e-6};
+    sp.turning[1].l = {-1e-6, 4e-6, 1e-6};
+    for (std::size_t g = 0; g < 2; ++g)
+        sp.motion[g].w = spin_of(sp.turning[g].q, sp.turning[g].l, sp.inverse_inertia(sp.grains[g]));
+    return engine<P>(std::move(s), std::move(sp), typename P::boundary(cylinder(0.2, 0.4)));
+}
+
+/// A breakable 4B clump with three pebbles on the bottom platen and one under the top platen, pressed to about `force`
+/// (N) and at rest. Platens stand still.
+template <class P> engine<P> pressed(engine_settings<P> s, double force) {
+    bodies::clumps sp = empty(shapes::tetrahedron_4(0.02));
+    sp.add(0, {}, turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
+    const boundaries::cylinder_settings c = cylinder_around(sp);
+    engine<P> e(std::move(s), std::move(sp), typename P::boundary(c));
+    e.breakage_on = false;
+    e.drives.platens.how = boundaries::drive::mode::velocity;
+    e.drives.platens.value = 2e-3;
+    while (e.loads()[boundaries::top_platen].force < force) e.step();
+    e.drives.platens.how = boundaries::drive::mode::hold;
+    for (int k = 0; k < 3000; ++k) e.step();
+    return e;
+}
+/// Force on the top platen (N).
+template <class P> double load(const engine<P>& e) { return e.loads()[boundaries::top_platen].force; }
+/// Makes the grains' strength such that the present load of one of them is `utilisation` of it.
+template <class P> void set_utilisation(engine<P>& e, double utilisation) {
+    e.settings.breakage.strength.sigma0 = load(e) / (utilisation * 0.02 * 0.02);
+    e.settings.breakage.strength.d0 = 0.02;
+    e.breakage_on = true;
+}
+
 /// Place of a pair in a contact list, or its size.
 template <class List> std::size_t position(const List& list, const clast::pebble_pair& pair) {
     return static_cast<std::size_t>(std::find(list.pairs.begin(), list.pairs.end(), pair) - list.pairs.begin());

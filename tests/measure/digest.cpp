@@ -8,7 +8,7 @@
 #include <catch.hpp>
 
 #include <clast/bodies/spheres.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
+#include <clast/spaces/periodic.hpp>
 
 #include "engine/scenes.hpp"
 
@@ -35,7 +35,8 @@ engine<scenes::breakable<boundaries::tiles>> broken(int threads) {
 /// Clumps or spheres on a grid in a cell that closes.
 template <class Body> struct in_cell : triaxial_policies_default {
     using body = Body;
-    using boundary = boundaries::periodic_cell;
+    using boundary = boundaries::none;
+    using space = spaces::periodic;
     using breakage = criteria::none;
     using replacement = replacements::none;
 };
@@ -54,8 +55,8 @@ template <class Body> engine<in_cell<Body>> cell(int threads) {
     auto settings = scenes::settings<in_cell<Body>>();
     settings.run = execution(threads);
     settings.contacts_per_thread = 8;
-    engine<in_cell<Body>> e(settings, std::move(s), boundaries::periodic_cell({0.101, 0.101, 0.101}));
-    for (auto& axis : e.boundary.axes) axis = {.rate = -1.0};
+    engine<in_cell<Body>> e(settings, std::move(s), spaces::periodic({0.101, 0.101, 0.101}));
+    for (auto& axis : e.space.axes) axis = {.rate = -1.0};
     e.step(400);
     return e;
 }
@@ -95,8 +96,8 @@ TEST_CASE("a digest is the same on 1, 2 and 3 threads and through an archive") {
     check_threads_and_archive([](int threads) {
         auto e = broken(threads);
         REQUIRE(e.totals().broken_tension + e.totals().broken_shear >= least_broken);
-        REQUIRE(e.fast_contacts().size() > 0);
-        if (threads > 1) REQUIRE(e.slow_contacts().shared > 0);
+        REQUIRE(e.light_contacts().size() > 0);
+        if (threads > 1) REQUIRE(e.heavy_contacts().shared > 0);
         return e;
     });
     check_threads_and_archive([](int threads) { return cell<bodies::spheres>(threads); });
@@ -117,8 +118,8 @@ TEST_CASE("a digest shows a change of one place, velocity, history, bond or wall
     check_that_change_shows(e, e.grains.losses[clump].damping);
     // no engine lets these be written, and none of these is const
     using history = contacts::linear::history;
-    check_that_change_shows(e, const_cast<history&>(e.slow_contacts().history.back()).y);
-    check_that_change_shows(e, const_cast<history&>(e.fast_contacts().history.front()).z);
+    check_that_change_shows(e, const_cast<history&>(e.heavy_contacts().history.back()).y);
+    check_that_change_shows(e, const_cast<history&>(e.light_contacts().history.front()).z);
     check_that_change_shows(e, const_cast<engine_totals&>(e.totals()).boundary_work);
     check_that_change_shows(e, const_cast<boundaries::facet_load&>(e.loads()[1]).force, false);
     double* force = nullptr;
@@ -129,7 +130,7 @@ TEST_CASE("a digest shows a change of one place, velocity, history, bond or wall
     auto spheres = cell<bodies::spheres>(1);
     check_that_change_shows(spheres, spheres.grains.pebbles[7].x.z);
     check_that_change_shows(spheres, spheres.grains.pebbles[7].v.x);
-    spheres.boundary.axes[1].rate = 1.0;
+    spheres.space.axes[1].rate = 1.0;
     CHECK(measure::digest(spheres) != measure::digest_of_state(spheres));
 }
 

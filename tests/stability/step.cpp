@@ -26,7 +26,7 @@ double growth(double safety, double damping, int steps) {
     e.settings.safety = safety;
     e.settings.largest_step = 1.0;
     for (std::size_t g = 0; g < e.grains.grain_count(); ++g)
-        e.set_velocity(g, {1e-3 * static_cast<double>(g % 3), -1e-3 * static_cast<double>(g % 2), 1e-3});
+        e.grains.motion[g].v = {1e-3 * static_cast<double>(g % 3), -1e-3 * static_cast<double>(g % 2), 1e-3};
     const double start = e.kinetic_energy() + e.elastic_energy();
     double largest = 0.0;
     try {

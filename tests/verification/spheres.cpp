@@ -9,13 +9,13 @@
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/engine/engine.hpp>
 #include <clast/io/archive.hpp>
 #include <clast/measure/stress.hpp>
 #include <clast/replacements/none.hpp>
+#include <clast/spaces/periodic.hpp>
 
 #include <catch.hpp>
 
@@ -25,14 +25,16 @@ namespace {
 
 struct in_a_cell : triaxial_policies_default {
     using body = bodies::spheres;
-    using boundary = boundaries::periodic_cell;
+    using boundary = boundaries::none;
+    using space = spaces::periodic;
     using breakage = criteria::none;
     using replacement = replacements::none;
 };
 struct in_a_box : in_a_cell {
+    using space = spaces::open;
     using boundary = boundaries::box;
 };
-static_assert(triaxial_policies<in_a_cell> && triaxial_policies<in_a_box>);
+static_assert(simulator_policies<in_a_cell> && simulator_policies<in_a_box>);
 
 template <class S>
 concept has_orientation = requires(S s) {
@@ -82,8 +84,8 @@ template <class P> double residual(const engine<P>& e) {
 /// A cell closed by its servos from a cloud to 50 kPa.
 engine<in_a_cell> packed(double skin, int threads = 1) {
     engine<in_a_cell> e(settings<in_a_cell>(0.2, 0.5, skin, threads), cloud(7, 0.1),
-                        boundaries::periodic_cell({0.154, 0.154, 0.154}));
-    for (auto& axis : e.boundary.axes) axis = {.target = 50e3, .max_rate = 2.0, .gain = 0.2};
+                        spaces::periodic({0.154, 0.154, 0.154}));
+    for (auto& axis : e.space.axes) axis = {.target = 50e3, .max_rate = 2.0, .gain = 0.2};
     while (e.time() < 0.25) e.step();
     return e;
 }
@@ -105,7 +107,7 @@ TEST_CASE("two spheres that meet across the faces of a cell do what they do in i
         s.pebbles[0].v = {0.5, 0.0, 0.1};
         s.pebbles[1].v = {-0.5, 0.2, 0.0};
         s.pebbles[1].w = {0.0, 30.0, 0.0};
-        engine<in_a_cell> e(settings<in_a_cell>(0.3, 0.0, 2e-3), s, boundaries::periodic_cell({0.2, 0.2, 0.2}));
+        engine<in_a_cell> e(settings<in_a_cell>(0.3, 0.0, 2e-3), s, spaces::periodic({0.2, 0.2, 0.2}));
         double deepest = 0.0;
         while (e.time() < 4e-3) {
             e.step();
@@ -126,7 +128,7 @@ TEST_CASE("two spheres that meet across the faces of a cell do what they do in i
 TEST_CASE("a gas of spheres in a cell keeps its momentum to rounding and its energy with the step") {
     auto s = settings<in_a_cell>(0.0, 0.0, 1e-3);
     s.largest_step = 4e-6;
-    engine<in_a_cell> e(s, cloud(6, 1.0), boundaries::periodic_cell({0.132, 0.132, 0.132}));
+    engine<in_a_cell> e(s, cloud(6, 1.0), spaces::periodic({0.132, 0.132, 0.132}));
     const vec3 p = momentum(e);
     while (e.time() < 0.1) e.step();
     CHECK(e.totals().renewals > 50);
@@ -144,12 +146,12 @@ TEST_CASE("no overlap goes unseen, however unlike the speeds, in a cell as small
     for (std::size_t k = 0; k < grains.pebble_count(); k += 7) grains.pebbles[k].v = 30.0 * grains.pebbles[k].v;
     auto s = settings<in_a_cell>(0.0, 0.0, 1e-4);
     s.largest_step = 4e-6;
-    engine<in_a_cell> e(s, grains, boundaries::periodic_cell({0.088, 0.088, 0.088}));
-    e.boundary.axes[0] = {.rate = 1.0};
+    engine<in_a_cell> e(s, grains, spaces::periodic({0.088, 0.088, 0.088}));
+    e.space.axes[0] = {.rate = 1.0};
     std::size_t met = 0, seen = 0;
     for (int step = 0; step < 4000; ++step) {
         const auto before = e.grains.pebbles;
-        const vec3 edges = e.boundary.edges();
+        const vec3 edges = e.space.edges();
         e.step();
         for (std::size_t i = 0; i < before.size(); ++i)
             for (std::size_t j = i + 1; j < before.size(); ++j) {
@@ -167,17 +169,17 @@ TEST_CASE("no overlap goes unseen, however unlike the speeds, in a cell as small
 
 TEST_CASE("servos bring a periodic packing to their stress, and the work of the cell goes where the audit says") {
     auto e = packed(1e-3);
-    const mat3 sigma = measure::love_weber(e, e.boundary.volume());
+    const mat3 sigma = measure::love_weber(e, e.space.volume());
     for (int a = 0; a < 3; ++a) CHECK(sigma(a, a) == Approx(50e3).epsilon(5e-3));
     CHECK(measure::contacts_of(e).coordination > 4.0);
 
     // sheared at constant volume: z closes, x and y open
-    for (int a = 0; a < 3; ++a) e.boundary.axes[static_cast<std::size_t>(a)] = {.rate = a == 2 ? -0.4 : 0.2};
-    const double volume = e.boundary.volume(), work = e.totals().boundary_work, before = residual(e);
+    for (int a = 0; a < 3; ++a) e.space.axes[static_cast<std::size_t>(a)] = {.rate = a == 2 ? -0.4 : 0.2};
+    const double volume = e.space.volume(), work = e.totals().boundary_work, before = residual(e);
     const double until = e.time() + 0.1;
     while (e.time() < until) e.step();
-    const mat3 sheared = measure::love_weber(e, e.boundary.volume());
-    CHECK(e.boundary.volume() == Approx(volume).epsilon(1e-10));
+    const mat3 sheared = measure::love_weber(e, e.space.volume());
+    CHECK(e.space.volume() == Approx(volume).epsilon(1e-10));
     CHECK(sheared(2, 2) > 1.2 * sheared(0, 0));
     CHECK(e.totals().boundary_work - work > 0.1);
     CHECK(std::abs(residual(e) - before) < 1e-3 * (e.totals().boundary_work - work));
@@ -192,7 +194,7 @@ TEST_CASE("skin, search and threads do not change what a periodic packing does")
     const auto wide = packed(3e-3);
     CHECK(wide.totals().renewals < one.totals().renewals);
     // not the same bits: grains are put back into the cell at other instants, and granular media are chaotic
-    CHECK(wide.boundary.volume() == Approx(one.boundary.volume()).epsilon(5e-3));
+    CHECK(wide.space.volume() == Approx(one.space.volume()).epsilon(5e-3));
 }
 
 TEST_CASE("spheres in a box: walls take their stress, and the audit closes") {
@@ -211,8 +213,8 @@ TEST_CASE("spheres in a box: walls take their stress, and the audit closes") {
 TEST_CASE("the skin finds its size by itself, from too small and from too large") {
     const auto sheared = [](double start) {
         auto e = packed(start);
-        e.boundary.axes[0] = {.rate = 5.0};
-        e.boundary.axes[1] = {.rate = -5.0};
+        e.space.axes[0] = {.rate = 5.0};
+        e.space.axes[1] = {.rate = -5.0};
         const auto before = e.totals();
         e.step(8000);
         return std::pair{std::move(e), e.totals().renewals - before.renewals};
@@ -230,12 +232,12 @@ TEST_CASE("the skin finds its size by itself, from too small and from too large"
 TEST_CASE("many steps at once are the same steps: bits of the grains, rows and stress of the last") {
     for (const bool servo : {true, false}) {
         auto one_by_one = packed(0.5e-3);
-        for (auto& axis : one_by_one.boundary.axes) axis = servo ? axis : boundaries::periodic_cell::axis{.rate = -0.5};
+        for (auto& axis : one_by_one.space.axes) axis = servo ? axis : spaces::periodic::axis{.rate = -0.5};
         auto at_once = one_by_one;
         for (int k = 0; k < 3 * 37; ++k) one_by_one.step();
         for (int k = 0; k < 3; ++k) at_once.step(37);
         CHECK(checksum(at_once.grains) == checksum(one_by_one.grains));
-        CHECK(at_once.boundary.edges() == one_by_one.boundary.edges());
+        CHECK(at_once.space.edges() == one_by_one.space.edges());
         std::size_t touching = 0;
         std::vector<force_row> rows;
         one_by_one.each_contact([&](const force_row& row, const pebble_pair&) { rows.push_back(row); });
@@ -246,7 +248,7 @@ TEST_CASE("many steps at once are the same steps: bits of the grains, rows and s
         });
         CHECK(k == rows.size());
         CHECK(touching > 300);
-        const mat3 sigma = measure::love_weber(at_once, at_once.boundary.volume());
-        CHECK(at_once.boundary.stress().x == Approx(sigma(0, 0)).epsilon(servo ? 0.05 : 1e-3));
+        const mat3 sigma = measure::love_weber(at_once, at_once.space.volume());
+        CHECK(at_once.space.stress().x == Approx(sigma(0, 0)).epsilon(servo ? 0.05 : 1e-3));
     }
 }

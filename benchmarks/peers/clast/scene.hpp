@@ -160,10 +160,11 @@ clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wa
             .run = clast::execution(s.threads)};
 }
 /// Spheres alone, under the law of these scenes.
-template <class Boundary> struct spheres_in : clast::triaxial_policies_default {
+template <class Boundary, class Space = clast::spaces::open> struct spheres_in : clast::triaxial_policies_default {
     using body = clast::bodies::spheres;
     using contact = clast::contacts::linear_dashpot;
     using boundary = Boundary;
+    using space = Space;
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };

@@ -65,6 +65,8 @@ struct clumps {
     std::size_t pebble_count() const { return pebbles.size(); }
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
     bool is_clump(std::size_t g) const { return grains[g].cluster < 0; }
+    /// Number of the body that a pebble is when it moves on its own.
+    std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
     double mass_of(const grain& g) const { return of_shape[static_cast<std::size_t>(g.shape)].mass; }
     double ball_mass(std::size_t p) const { return density * sphere_volume(pebbles[p].radius); }
     double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(pebbles[p].radius); }
@@ -110,6 +112,7 @@ struct clumps {
     };
 
     std::size_t body_count() const { return grains.size(); }
+    std::size_t movable_count() const { return motion.size(); } ///< with balls that may be
     bool is_swept(std::size_t g) const { return is_clump(g); }
     std::size_t body_of(std::int32_t pebble) const {
         return static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]);

@@ -65,6 +65,7 @@ concept swept = std::movable<S> &&
     requires(S& s, const S& c, std::size_t b, vec3 x, double h, const body_items& wanted) {
     { S::turns } -> std::convertible_to<bool>;
     { c.body_count() } -> std::same_as<std::size_t>;
+    { c.movable_count() } -> std::same_as<std::size_t>;
     { c.is_swept(b) } -> std::same_as<bool>;
     { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;

@@ -93,12 +93,8 @@ std::size_t find_pair(const std::vector<pebble_pair>& sorted, const pebble_pair&
     return static_cast<std::size_t>((it != sorted.end() && *it == p ? it : sorted.end()) - sorted.begin());
 }
 
-/// The 27 images of a periodic cell: number (x+1) + 3 (y+1) + 9 (z+1) for a shift by x, y, z edges of -1, 0 or 1.
+/// The image of a body that is the body itself, of the 27 in a periodic cell (spaces/images.hpp).
 inline constexpr std::uint8_t no_shift = 13;
-constexpr vec3 image_shift(std::size_t image, const vec3& edges) {
-    const auto steps = [](std::size_t digit) { return static_cast<double>(digit) - 1.0; };
-    return scale(edges, {steps(image % 3), steps(image / 3 % 3), steps(image / 9)});
-}
 
 /// Indices from begin to end - 1.
 struct index_range {
@@ -109,10 +105,11 @@ struct index_range {
 /// stand in front, sorted as well.
 struct pair_list {
     std::vector<pebble_pair> pairs;
-    std::vector<std::uint8_t> image; ///< in a periodic cell: which image of j is meant (image_shift); else empty
+    std::vector<std::uint8_t> image; ///< which image of j is meant (spaces/images.hpp); empty where there are none
     std::size_t shared = 0;          ///< number of pairs between two ranges
 
     std::size_t size() const { return pairs.size(); }
+    std::uint8_t image_of(std::size_t k) const { return image.empty() ? no_shift : image[k]; }
     index_range in_front() const { return {0, shared}; }
     index_range behind() const { return {shared, size()}; }
     /// Calls f(k) for all pairs, in the order that they would have in one sorted list.

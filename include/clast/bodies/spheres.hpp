@@ -49,6 +49,7 @@ struct spheres {
     }
 
     std::size_t body_count() const { return pebbles.size(); }
+    std::size_t movable_count() const { return pebbles.size(); }
     static constexpr bool is_swept(std::size_t) { return true; }
     static constexpr std::size_t body_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }

@@ -144,6 +144,8 @@ template <moving_unit Unit> class faceted_cylinder {
     }
     /// Distance of a lateral facet's plane from the axis (m).
     double apothem(int facet) const { return apothem_[index(facet - first_lateral_facet)]; }
+    /// Of a wall that still is a cylinder: apothem of its tiles (m).
+    double radius() const { return apothem_[0]; }
     /// Area of a facet that encloses the specimen (m^2): visible width times height; for a platen the mean section.
     /// d volume / dt = - sum of area times velocity.
     double area(int facet) const {

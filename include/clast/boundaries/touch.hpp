@@ -20,6 +20,8 @@ struct touch {
     vec3 normal;  ///< unit vector into the specimen: direction of the force on the pebble
     double depth; ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
     double along; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
+
+    constexpr bool at_platen() const { return facet < first_lateral_facet; }
 };
 
 /// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
@@ -49,7 +51,7 @@ struct touches {
 constexpr vec3 lateral_push(const touches& t) {
     vec3 u;
     for (const touch& one : t)
-        if (one.facet >= first_lateral_facet) u += one.depth * one.normal;
+        if (!one.at_platen()) u += one.depth * one.normal;
     return u;
 }
 
@@ -57,7 +59,7 @@ constexpr vec3 lateral_push(const touches& t) {
 constexpr double elastic_energy(const touches& t, double k_platen, double k_lateral) {
     double energy = 0.5 * k_lateral * norm2(lateral_push(t));
     for (const touch& one : t)
-        if (one.facet < first_lateral_facet) energy += 0.5 * k_platen * one.depth * one.depth;
+        if (one.at_platen()) energy += 0.5 * k_platen * one.depth * one.depth;
     return energy;
 }
 
@@ -104,10 +106,26 @@ struct facet_load {
     /// Adds one contact that carries `force_on_pebble` (N, along t.normal) with contact stiffness k (N/m).
     constexpr void add(const touch& t, double force_on_pebble, double k) {
         force += force_on_pebble * t.along;
-        if (t.facet >= first_lateral_facet) edge[t.normal.z < 0.0 ? 0 : 1] += force_on_pebble * t.normal.z;
+        if (!t.at_platen()) edge[t.normal.z < 0.0 ? 0 : 1] += force_on_pebble * t.normal.z;
         stiffness += k * t.along * t.along;
         ++contacts;
     }
+};
+
+/// A pebble at a boundary: what touches it and the forces that it takes (N).
+struct wall_row {
+    std::int32_t pebble = -1;
+    double lateral = 0.0;           ///< size of the lateral force (N)
+    vec3 force;                     ///< on the pebble
+    std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
+    touches touch;
+
+    /// Force (N) along the normal of one of its touches: lateral facets share by their parts of the way out.
+    double share(const boundaries::touch& t) const {
+        return t.at_platen() ? platen[static_cast<std::size_t>(t.facet)]
+                             : lateral * t.depth / norm(lateral_push(touch));
+    }
+    template <class A> void archive(A& a) { a(pebble); } // the rest is written anew by the next step
 };
 
 } // namespace clast::boundaries

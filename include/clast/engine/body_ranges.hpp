@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <clast/core/parallel.hpp>
 #include <clast/bodies/contact_list.hpp>
+#include <clast/core/parallel.hpp>
 
 namespace clast {
 

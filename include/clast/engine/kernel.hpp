@@ -16,12 +16,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
+#include <clast/bodies/contact_list.hpp>
 #include <clast/contacts/concepts.hpp>
 #include <clast/core/lanes.hpp>
 #include <clast/core/packs.hpp>
+#include <clast/core/parallel.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/bodies/contact_list.hpp>
 
 namespace clast {
 
@@ -52,6 +54,10 @@ template <contacts::contact_law Law, class View> struct strip {
     /// waits for a root or a quotient the other goes on.
     std::int32_t touching[length];
 };
+
+/// The strip that contacts of a scene are worked on in.
+template <class Scene>
+using strip_of = strip<typename Scene::contact, decltype(std::declval<const typename Scene::body_type&>().view())>;
 
 /// Up to 8 contacts: row, row + 1, ... of a list, in the lanes at, at + 1, ... of a strip.
 struct contact_block {
@@ -272,6 +278,16 @@ template <class Law, class View, class Job>
         }
         return work;
     });
+}
+
+/// f(rows) for the first n contacts of a list by chunks, side by side on all threads.
+inline constexpr std::size_t rows_at_once = 256; ///< contacts that are evaluated in one go
+template <class F> void each_chunk(const execution& run, std::size_t n, F&& f) {
+    run.for_each((n + rows_at_once - 1) / rows_at_once,
+                 [&](std::size_t k) {
+                     f(index_range{k * rows_at_once, std::min(n, (k + 1) * rows_at_once)});
+                 },
+                 1);
 }
 
 /// Writes the rows of contacts of a list from the strip that holds their results.

@@ -10,53 +10,26 @@
 #include <numeric>
 #include <vector>
 
+#include <clast/bodies/concepts.hpp>
+#include <clast/bodies/contact_list.hpp>
 #include <clast/core/parallel.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/bodies/contact_list.hpp>
-#include <clast/bodies/concepts.hpp>
 #include <clast/searches/concepts.hpp>
+#include <clast/spaces/concepts.hpp>
+#include <clast/spaces/images.hpp>
 
 namespace clast {
 
-/// Spheres that a search looks at: those of bodies, and behind them images of those near the faces of a periodic cell.
-struct search_spheres {
-    std::vector<searches::sphere> all; ///< id: body, or for a ball the number of bodies + its pebble
-    std::vector<std::uint8_t> image;   ///< of each image (image_shift)
-
-    std::size_t real() const { return all.size() - image.size(); }
-    /// Which image of its body a sphere is.
-    std::uint8_t image_of(std::size_t sphere) const { return sphere < real() ? no_shift : image[sphere - real()]; }
-
-    /// Adds images of the spheres that are nearer to a face of the cell than `reach` (m): for half of the 26 shifts, so
-    /// that each pair is named once.
-    void add_images(const vec3& edges, double reach) {
-        const auto is_within = [&](const vec3& c, double beyond) {
-            return std::abs(c.x) <= 0.5 * edges.x + beyond && std::abs(c.y) <= 0.5 * edges.y + beyond &&
-                   std::abs(c.z) <= 0.5 * edges.z + beyond;
-        };
-        for (std::size_t k = 0, bodies = all.size(); k < bodies; ++k) {
-            const searches::sphere own = all[k];
-            if (is_within(own.centre, -reach)) continue; // far from every face
-            for (std::size_t i = no_shift + 1; i < 27; ++i) {
-                const vec3 c = own.centre + image_shift(i, edges);
-                if (!is_within(c, reach)) continue;
-                all.push_back({c, own.radius, own.id});
-                image.push_back(static_cast<std::uint8_t>(i));
-            }
-        }
-    }
-};
-
-/// Makes the lists of pairs of pebbles whose gap is less than a margin (m). `Periodic`: pairs say which image of their
-/// second pebble is meant, in a cell with these edges (m).
-template <bodies::swept S, bool Periodic> class pebble_pairs {
+/// Makes the lists of pairs of pebbles whose gap is less than a margin (m). In a space with images pairs say which
+/// image of their second pebble is meant.
+template <bodies::swept S, spaces::space Space> class pebble_pairs {
   public:
-    pebble_pairs(const S& grains, double margin, const vec3& edges, const execution& run)
-        : grains_(grains), margin_(margin), edges_(edges), run_(run) {}
+    pebble_pairs(const S& grains, const Space& space, double margin, const execution& run)
+        : grains_(grains), space_(space), margin_(margin), run_(run) {}
 
     struct lists {
-        pair_list slow; ///< of two clumps
-        pair_list fast; ///< with a ball
+        pair_list heavy; ///< of two swept bodies
+        pair_list light; ///< with a ball
     };
     /// near: pairs of spheres whose gap is less than the margin, sorted.
     lists of(const search_spheres& spheres, const std::vector<searches::sphere_pair>& near) const {
@@ -84,15 +57,13 @@ template <bodies::swept S, bool Periodic> class pebble_pairs {
         pebble_pair pair;
         std::uint8_t image;
     };
-    using found_pairs = std::vector<std::array<std::vector<listed_pair>, 2>>; ///< by parts: slow and fast
+    using found_pairs = std::vector<std::array<std::vector<listed_pair>, 2>>; ///< by parts: heavy and light
 
     static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
     std::int32_t bodies() const { return static_cast<std::int32_t>(grains_.body_count()); }
     bool is_ball(const searches::sphere& s) const { return s.id >= bodies(); }
-    searches::sphere pebble(std::int32_t p, const vec3& by) const {
-        searches::sphere s{grains_.pebbles[at(p)].x, grains_.pebbles[at(p)].radius};
-        if constexpr (Periodic) s.centre += by;
-        return s;
+    searches::sphere pebble(std::int32_t p, std::uint8_t image) const {
+        return {space_.across(grains_.pebbles[at(p)].x, image), grains_.pebbles[at(p)].radius};
     }
 
     /// Pairs of pebbles of two neighbours; those with the same second pebble stand by the first one. near_a, near_b:
@@ -106,23 +77,21 @@ template <bodies::swept S, bool Periodic> class pebble_pairs {
         };
         if constexpr (!S::turns) return out.push_back(list(a.id, b.id)); // the search has tested them
         if (is_ball(a) && is_ball(b)) return out.push_back(list(a.id - bodies(), b.id - bodies()));
-        vec3 shift;
-        if constexpr (Periodic) shift = image_shift(image, edges_);
-        collect(a, {}, b, near_a);
-        collect(b, shift, a, near_b);
+        collect(a, no_shift, b, near_a);
+        collect(b, image, a, near_b);
         std::size_t n = out.size();
         out.resize(n + near_a.size() * near_b.size() + 1);
         for (std::int32_t q : near_b) {
-            const searches::sphere pebble_q = pebble(q, shift);
+            const searches::sphere pebble_q = pebble(q, image);
             for (std::int32_t p : near_a) {
                 out[n] = list(p, q);
-                n += searches::within(pebble(p, {}), pebble_q, margin_);
+                n += searches::within(pebble(p, no_shift), pebble_q, margin_);
             }
         }
         out.resize(n);
     }
     /// Keeps the pebbles of a body that another may reach. All are written: no branch that depends on the packing.
-    void collect(const searches::sphere& body, const vec3& by, const searches::sphere& other,
+    void collect(const searches::sphere& body, std::uint8_t image, const searches::sphere& other,
                  std::vector<std::int32_t>& kept) const {
         const std::size_t ball = at(body.id - bodies());
         const index_range own = is_ball(body) ? index_range{ball, ball + 1} : grains_.pebbles_of(at(body.id));
@@ -130,7 +99,7 @@ template <bodies::swept S, bool Periodic> class pebble_pairs {
         std::size_t n = 0;
         for (auto p = static_cast<std::int32_t>(own.begin); p < static_cast<std::int32_t>(own.end); ++p) {
             kept[n] = p;
-            n += searches::within(pebble(p, by), other, margin_);
+            n += searches::within(pebble(p, image), other, margin_);
         }
         kept.resize(n);
     }
@@ -156,20 +125,20 @@ template <bodies::swept S, bool Periodic> class pebble_pairs {
             [&](std::size_t k, const listed_pair& p) { by_second[k] = p; });
         pair_list list;
         list.pairs.resize(count);
-        if constexpr (Periodic) list.image.resize(count);
+        if constexpr (Space::has_images) list.image.resize(count);
         counting_sort(
             grains_.grain_count(), [&](auto&& f) { std::for_each(by_second.begin(), by_second.end(), f); },
             [&](const listed_pair& p) { return grains_.group_of(p.pair.i); },
             [&](std::size_t k, const listed_pair& p) {
                 list.pairs[k] = p.pair;
-                if constexpr (Periodic) list.image[k] = p.image;
+                if constexpr (Space::has_images) list.image[k] = p.image;
             });
         return list;
     }
 
     const S& grains_;
+    const Space& space_;
     double margin_;
-    vec3 edges_;
     const execution& run_;
 };
 

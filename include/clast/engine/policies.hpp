@@ -18,6 +18,8 @@
 #include <clast/replacements/none.hpp>
 #include <clast/searches/cell_grid.hpp>
 #include <clast/searches/concepts.hpp>
+#include <clast/spaces/concepts.hpp>
+#include <clast/spaces/open.hpp>
 
 namespace clast {
 
@@ -30,13 +32,17 @@ struct triaxial_policies_default {
     using boundary = boundaries::tiles;
     using search = searches::cell_grid;
     using body = bodies::clumps; // or bodies::spheres, which never break
+    using space = spaces::open;
 };
 
-/// A complete bundle. A policy that is missing or does not satisfy its own concept is named by the compiler.
+/// A complete bundle, as an engine uses it. A policy that is missing or does not satisfy its own concept is named by
+/// the compiler.
 template <class P>
-concept triaxial_policies = contacts::contact_law<typename P::contact> &&
-    replacements::replacement<typename P::replacement> && criteria::criterion<typename P::breakage> &&
-    boundaries::boundary<typename P::boundary> && searches::search<typename P::search> &&
-    bodies::swept<typename P::body> &&(P::body::turns || !P::replacement::makes_bonds);
+concept simulator_policies = contacts::contact_law<typename P::contact> &&
+                             replacements::replacement<typename P::replacement> &&
+                             criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
+                             searches::search<typename P::search> && bodies::swept<typename P::body> &&
+                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::makes_bonds) &&
+                             !(P::space::has_images && P::replacement::makes_bonds);
 
 } // namespace clast

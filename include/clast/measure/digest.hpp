@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include <clast/bodies/contact_list.hpp>
 #include <clast/boundaries/touch.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/bodies/contact_list.hpp>
+#include <clast/engine/breakage_state.hpp>
 #include <clast/io/archive.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -22,9 +23,7 @@ namespace detail {
 
 /// By pebbles: threads decide where in the list a contact stands.
 template <class History> void add_contacts(hash_archive& a, const contact_list<History>& list) {
-    const auto key = [&](std::size_t k) {
-        return std::tuple(list.pairs[k], list.image.empty() ? no_shift : list.image[k]);
-    };
+    const auto key = [&](std::size_t k) { return std::tuple(list.pairs[k], list.image_of(k)); };
     std::vector<std::size_t> order(list.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t k, std::size_t l) { return key(k) < key(l); });
@@ -46,16 +45,15 @@ template <class Engine> void add_grains(hash_archive& a, const Engine& e) {
         // what is left in the tables of bodies that are no more decides nothing
         for (std::size_t g = 0; g < s.body_count(); ++g)
             if (s.is_swept(g)) add(s.motion[g]), a(s.turning[g].q, s.turning[g].l);
-        if constexpr (Engine::breakable)
-            for (const std::int32_t p : e.breakage().balls) add(s.motion[s.body_count() + static_cast<std::size_t>(p)]);
+        e.breakage().each_ball(s, [&](std::int32_t, const body_motion& m) { add(m); });
     } else {
         for (const auto& p : s.pebbles) add(p);
     }
     for (const auto& l : s.losses) a(l.friction, l.damping);
 }
 
-template <class Engine> void add_breakage(hash_archive& a, const Engine& e) {
-    const auto& b = e.breakage();
+inline void add_breakage(hash_archive&, const unbroken&) {}
+inline void add_breakage(hash_archive& a, const breakage_state& b) {
     a(b.fragment, b.balls, b.bonded);
     for (std::size_t k = 0; k < b.pools.size(); ++k) {
         a(b.members[k]);
@@ -70,19 +68,18 @@ template <class Engine> void add_breakage(hash_archive& a, const Engine& e) {
 
 template <class Engine> void add_boundary(hash_archive& a, const Engine& e) {
     const auto& b = e.boundary;
-    if constexpr (Engine::periodic) {
-        a(b.edges(), b.edge_speeds());
-    } else {
-        a(b.volume(), b.height(), b.section());
+    if constexpr (requires { b.volume(); }) a(b.volume(), b.height(), b.section());
+    if constexpr (requires { b.area(0); })
         for (int f = 0; f < b.facet_count(); ++f) a(b.velocity(f), b.area(f));
+    if constexpr (requires { b.view(e.loads()); })
         for (const facet_view& f : b.view(e.loads())) a(f.corner);
-    }
+    if constexpr (Engine::space_type::has_images) a(e.space.edges(), e.space.edge_speeds());
 }
 
 template <class Engine> void add_totals(hash_archive& a, const Engine& e) {
     const auto& t = e.totals();
     a(t.boundary_work, t.bond_dissipation, t.initial_energy, t.steps, t.rebuilds, t.renewals, t.replaced,
-      t.broken_tension, t.broken_shear, t.time, e.dt(), e.fast_steps());
+      t.broken_tension, t.broken_shear, t.time, e.dt(), e.light_steps());
 }
 
 /// Forces of walls in the last step (N).
@@ -98,9 +95,9 @@ template <class Engine> hash_archive add_state(Engine& e) {
     e.place_all();
     hash_archive a;
     add_grains(a, e);
-    if constexpr (Engine::breakable) add_breakage(a, e);
-    add_contacts(a, e.slow_contacts());
-    add_contacts(a, e.fast_contacts());
+    add_breakage(a, e.breakage());
+    add_contacts(a, e.heavy_contacts());
+    add_contacts(a, e.light_contacts());
     add_boundary(a, e);
     add_totals(a, e);
     return a;

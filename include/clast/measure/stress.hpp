@@ -33,21 +33,10 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
             f(-w.share(t) * t.normal, point - e.centre_of(w.pebble), point);
         }
     });
-    if constexpr (Engine::breakable) {
-        const auto& broken = e.breakage();
-        for (std::size_t k = 0; k < broken.pools.size(); ++k) {
-            const auto& pool = broken.pools[k];
-            for (std::size_t c = 0; c < pool.size(); ++c)
-                for (std::size_t b = 0; b < pool.bonds(); ++b) {
-                    if (!pool.is_intact(c, b)) continue;
-                    const std::size_t first = at(s.grains[at(broken.members[k][c])].first);
-                    const std::size_t i = first + at(pool.shape().ends[b].a), j = first + at(pool.shape().ends[b].b);
-                    const vec3 d = s.pebbles[j].x - s.pebbles[i].x;
-                    const auto bond = pool.get(c, b);
-                    f(-(bond.n * unit(d) + bond.v), d, s.pebbles[i].x + s.pebbles[i].radius * unit(d));
-                }
-        }
-    }
+    e.breakage().each_bond(s, [&](std::int32_t i, std::int32_t j, const auto& bond) {
+        const vec3 xi = s.pebbles[at(i)].x, d = s.pebbles[at(j)].x - xi;
+        f(-(bond.n * unit(d) + bond.v), d, xi + s.pebbles[at(i)].radius * unit(d));
+    });
 }
 
 /// Love-Weber stress (Pa, compression positive) over a volume (m^3): (1/V) sum f (x) l over all branches.
@@ -81,13 +70,8 @@ struct contact_state {
 template <class Engine> contact_state contacts_of(const Engine& e) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
-    const auto piece = [&](std::int32_t pebble) {
-        const std::size_t body = s.body_of(pebble);
-        if constexpr (Engine::breakable)
-            if (body >= s.body_count()) return s.body_count() + at(e.breakage().fragment[at(pebble)]);
-        return body;
-    };
-    const std::size_t pieces = s.body_count() + (Engine::breakable ? s.pebble_count() : 0);
+    const auto piece = [&](std::int32_t pebble) { return e.breakage().piece_of(s, pebble); };
+    const std::size_t pieces = e.breakage().piece_count(s);
     std::vector<vec3> net(pieces);
     std::vector<double> sum(pieces, 0.0);
     std::vector<std::pair<std::size_t, std::size_t>> neighbours;
@@ -123,9 +107,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
     };
     for (std::size_t b = 0; b < s.body_count(); ++b)
         if (s.is_swept(b)) body(b);
-    if constexpr (Engine::breakable)
-        for (std::int32_t p : e.breakage().balls)
-            if (e.breakage().fragment[at(p)] == p) body(s.body_count() + at(p));
+    e.breakage().each_fragment(s, body);
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     c.unbalanced_ratio = total > 0.0 ? largest / (total / static_cast<double>(bodies)) : 0.0;

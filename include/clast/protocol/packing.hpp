@@ -10,9 +10,9 @@
 
 #include <fmt/core.h>
 
+#include <clast/bodies/clumps.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/random.hpp>
-#include <clast/bodies/clumps.hpp>
 
 namespace clast::protocol {
 

@@ -22,6 +22,7 @@
 #include <clast/measure/sample.hpp>
 #include <clast/measure/stress.hpp>
 #include <clast/protocol/stage.hpp>
+#include <clast/protocol/vessel.hpp>
 
 namespace clast {
 
@@ -187,14 +188,7 @@ template <triaxial_policies P> class runner {
             v.velocity = s.motion[owner].v;
             if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.pebbles[p].x - s.motion[owner].x);
             if (!reference_.empty()) v.displacement = s.pebbles[p].x - reference_[p];
-            if constexpr (engine_type::breakable)
-                if (!s.is_clump(g)) {
-                    v.fragment = sim.breakage().fragment[p];
-                    const auto& pool = sim.breakage().pools[static_cast<std::size_t>(s.grains[g].shape)];
-                    const bool whole = pool.intact_bonds(static_cast<std::size_t>(s.grains[g].cluster)) ==
-                                       static_cast<std::int32_t>(pool.bonds());
-                    v.state = whole ? pebble_state::bonded : pebble_state::fragment;
-                }
+            sim.breakage().describe(s, p, v);
         }
         return out;
     }
@@ -241,7 +235,7 @@ template <triaxial_policies P> class runner {
         }
         sim.breakage_on = s.breakage;
         sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
-        start_size_ = {sim.boundary.height(), apothem()};
+        start_size_ = {sim.boundary.height(), radius()};
         const sample now = measure();
         stage_work_ = now.boundary_work;
         stage_losses_ = now.friction_dissipation + now.damping_dissipation;
@@ -296,7 +290,7 @@ template <triaxial_policies P> class runner {
                            100.0 * axial_strain());
     }
 
-    double apothem() const { return sim.boundary.apothem(boundaries::first_lateral_facet); }
+    double radius() const { return sim.boundary.radius(); }
 
     /// Refreshes the view that conditions see, and the drives that depend on it.
     void look() {
@@ -315,7 +309,7 @@ template <triaxial_policies P> class runner {
         deepest_ = c;
         const double kinetic = sim.kinetic_energy(), elastic = sim.elastic_energy();
         view_.kinetic_ratio = elastic > 0.0 ? kinetic / elastic : 1.0;
-        const double r = 0.7 * apothem(), h = b.height();
+        const double r = 0.7 * radius(), h = b.height();
         view_.sphere_stress = 0.0;
         for (double z : {1.0 / 6.0, 0.5, 5.0 / 6.0})
             view_.sphere_stress = std::max(
@@ -329,7 +323,7 @@ template <triaxial_policies P> class runner {
         if (s.axial.how == axis_drive::kind::reach)
             view_.travel_left = std::max(view_.travel_left, left(h, start_size_[0], s.axial.value));
         if (s.lateral.how == axis_drive::kind::reach)
-            view_.travel_left = std::max(view_.travel_left, left(apothem(), start_size_[1], s.lateral.value));
+            view_.travel_left = std::max(view_.travel_left, left(radius(), start_size_[1], s.lateral.value));
         smoothed_p_ += 0.1 * (std::max(view_.p, 0.01 * plan.confining) - smoothed_p_);
         drive(c.coordination);
     }
@@ -379,7 +373,7 @@ template <triaxial_policies P> class runner {
             return d;
         };
         sim.drives.platens = one(s.axial, sim.boundary.height(), 0.5, start_size_[0]);
-        sim.drives.lateral = one(s.lateral, apothem(), 1.0, start_size_[1]);
+        sim.drives.lateral = one(s.lateral, radius(), 1.0, start_size_[1]);
     }
 
     void confining_now() {

@@ -162,7 +162,7 @@ template <triaxial_policies P> class triaxial_test {
           run_(sim_, make_plan(setup_, std::move(stages)),
                [s = membrane_settings(setup_)](const boundary_type& vessel) {
                    boundaries::cylinder_settings m = s;
-                   m.radius = vessel.apothem(boundaries::first_lateral_facet);
+                   m.radius = vessel.radius();
                    m.bottom = vessel.bottom();
                    m.top = vessel.top();
                    return boundary_type(m);

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include <clast/bodies/spheres.hpp>
-#include <clast/boundaries/periodic_cell.hpp>
+#include <clast/spaces/periodic.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/core/random.hpp>
@@ -62,7 +62,8 @@ struct spheres {
     struct policies : triaxial_policies_default {
         using contact = contacts::linear_dashpot;
         using body = bodies::spheres;
-        using boundary = boundaries::periodic_cell;
+        using boundary = boundaries::none;
+    using space = spaces::periodic;
         using breakage = criteria::none;
         using replacement = replacements::none;
     };
@@ -89,12 +90,12 @@ struct spheres {
                             .safety = 0.4,
                             .run = execution(threads),
                             .contacts_per_thread = 8},
-                           s, boundaries::periodic_cell({0.0205 * n, 0.0205 * n, 0.0205 * n}));
-        for (auto& axis : e.boundary.axes) axis = {.target = stress, .max_rate = 5.0, .gain = 0.2}; // Pa, 1/s
+                           s, spaces::periodic({0.0205 * n, 0.0205 * n, 0.0205 * n}));
+        for (auto& axis : e.space.axes) axis = {.target = stress, .max_rate = 5.0, .gain = 0.2}; // Pa, 1/s
         e.step(3000);
         return e;
     }
-    static void press(engine<policies>& e) { e.boundary.axes[2] = {.rate = -0.5}; } // 1/s
+    static void press(engine<policies>& e) { e.space.axes[2] = {.rate = -0.5}; } // 1/s
     static std::int64_t events(const engine<policies>& e) {
         std::int64_t touching = 0;
         e.each_contact([&](const force_row& r, const pebble_pair&) { touching += r.depth > 0.0 ? 1 : 0; });

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Energies that a scene holds, and what it has lost.
+#pragma once
+
+#include <cstddef>
+
+#include <clast/bodies/concepts.hpp>
+#include <clast/boundaries/touch.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/engine/scene.hpp>
+
+namespace clast::rooms {
+
+/// Of all bodies (J).
+template <class S> double kinetic_energy(const S& s) {
+    const double swept = s.settings.run.sum(s.grains.body_count(), 0.0, [&](std::size_t b) {
+        return s.grains.is_swept(b) ? s.grains.kinetic_energy(b) : 0.0;
+    });
+    return s.broken.add_kinetic_energy(s.grains, swept);
+}
+/// Energy in contacts, facets and bonds (J).
+template <class S> double elastic_energy(const S& s) {
+    using list_type = contact_list<typename S::history>;
+    double e = 0.0;
+    const auto add = [&](const list_type& list, std::size_t k) {
+        const pebble_pair& pair = list.pairs[k];
+        const double d = norm(s.apart(list, k));
+        const double ri = s.radius(pair.i), rj = s.radius(pair.j);
+        const typename S::history none{};
+        const typename S::history* h = &none;
+        if constexpr (list_type::remembers) h = &list.history[k];
+        e += s.settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
+    };
+    s.each_heavy([&](std::size_t k) { add(s.heavy, k); });
+    for (std::size_t k = 0; k < s.light.size(); ++k) add(s.light, k);
+    s.each_wall_row([&](const boundaries::wall_row& w) {
+        const double r = s.radius(w.pebble);
+        const double lateral = norm(boundaries::lateral_push(w.touch));
+        if (lateral > 0.0) e += s.settings.lateral_contact.stored({0, 0, 1, lateral, r, r}, {});
+        for (const boundaries::touch& t : w.touch)
+            if (t.at_platen()) e += s.settings.platen_contact.stored({0, 0, 1, t.depth, r, r}, {});
+    });
+    return s.broken.add_bond_energy(e);
+}
+/// Lost to friction and damping so far (J).
+template <class S> body_losses losses(const S& s) {
+    body_losses total;
+    for (const body_losses& l : s.grains.losses) total.friction += l.friction, total.damping += l.damping;
+    return total;
+}
+
+} // namespace clast::rooms

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// What there is: bodies, the surface around them, the space they are in, contact lists, loads, the clock and totals.
+// Data of an engine, archived as one; what is done with them is in the rooms beside this header.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <clast/bodies/concepts.hpp>
+#include <clast/bodies/contact_list.hpp>
+#include <clast/boundaries/drive.hpp>
+#include <clast/boundaries/touch.hpp>
+#include <clast/core/parallel.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/engine/body_ranges.hpp>
+#include <clast/engine/breakage_state.hpp>
+#include <clast/engine/kernel.hpp>
+#include <clast/engine/list_widths.hpp>
+#include <clast/engine/policies.hpp>
+
+namespace clast {
+
+/// Parameters of an engine that are values, not types. SI units.
+template <simulator_policies P> struct engine_settings {
+    typename P::contact grain_contact;   ///< pebble against pebble
+    typename P::contact platen_contact;  ///< pebble against platen
+    typename P::contact lateral_contact; ///< pebble against the lateral wall
+    typename P::breakage breakage;
+    typename P::replacement replacement;
+    double damping = 0.7;       ///< local damping coefficient in [0, 1)
+    double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
+    double skin = 0.0;          ///< m: where the skin of the lists starts; 0: from the size of the grains
+    double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
+    execution run = execution(1);
+    std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
+};
+
+/// Totals that an audit needs (J), and counters.
+struct engine_totals {
+    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall and moving images
+    double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
+    double initial_energy = 0.0;   ///< brought in with initial velocities
+    std::int64_t steps = 0;
+    std::int64_t rebuilds = 0; ///< searches for neighbours
+    std::int64_t renewals = 0; ///< of the lists, from what a search has found
+    std::int64_t replaced = 0;
+    std::int64_t broken_tension = 0;
+    std::int64_t broken_shear = 0;
+    double time = 0.0;
+};
+
+/// What the lists of contacts are made from, and until when they hold (engine/neighbourhood.hpp).
+template <class Body, class Space> struct neighbour_state {
+    /// Where displacements count from.
+    struct origin {
+        std::vector<typename Body::reference> bodies;        ///< per swept body
+        std::vector<vec3> balls;                             ///< per pebble of a breakable scene
+        [[no_unique_address]] typename Space::frame frame{}; ///< of the space
+        double wall_travel = 0.0;                            ///< how far walls have moved since (m)
+
+        template <class A> void archive(A& a) { a(bodies, balls, frame, wall_travel); }
+    };
+    /// What the last search has found, in the order of the lists.
+    struct wide_lists {
+        pair_list heavy, light;
+        std::vector<std::int32_t> wall; ///< pebbles that a facet may touch
+        origin since;
+
+        template <class A> void archive(A& a) { a(heavy, light, wall, since); }
+    };
+
+    wide_lists wide;
+    origin since;                ///< where bodies were at the last renewal of the lists
+    std::vector<double> margins; ///< per body: how far it may go before lists are renewed (m)
+    double wall_margin = 0.0;    ///< the same for walls and for the strain of the space (m)
+    double widest = 0.0;         ///< largest bounding diameter, where bodies have images (m)
+    list_widths widths;
+    bool must_search = false;
+    bool must_renew = false;
+
+    template <class A> void archive(A& a) {
+        a(wide, since, margins, wall_margin, widest, widths, must_search, must_renew);
+    }
+};
+
+/// What one thread works with while it sweeps its range of bodies.
+struct range_work {
+    std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
+    margin_use use = margin_use::within; ///< of its bodies
+    std::vector<birth_certificate> marked;
+};
+
+/// Heavy bodies are swept, each once in a step: clumps, or all spheres of a scene of spheres. Light bodies are balls,
+/// which pass through the step in sub-steps. A contact is light if one of its bodies is.
+template <simulator_policies P> struct scene {
+    using policies = P;
+    using contact = typename P::contact;
+    using history = typename contact::history;
+    using body_type = typename P::body;
+    using boundary_type = typename P::boundary;
+    using space_type = typename P::space;
+    using wall_row = boundaries::wall_row;
+    static constexpr bool breakable = P::replacement::makes_bonds;
+    static constexpr bool has_criterion = P::breakage::evaluated;
+
+    engine_settings<P> settings;
+    body_type grains;
+    boundary_type boundary;
+    [[no_unique_address]] space_type space;
+    boundaries::drives drives;
+    bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
+
+    contact_list<history> heavy, light;
+    std::vector<pebble_pair> asleep; ///< pairs of balls that an intact bond carries, in the order of the lists
+    std::vector<wall_row> heavy_wall, light_wall;
+    std::optional<incidence> heavy_of; ///< which heavy rows act on a body: made when it is asked for
+    incidence light_of;
+    body_items listed;   ///< pebbles of clumps that are in a list, so placed in every step
+    body_items unlisted; ///< the others
+    neighbour_state<body_type, space_type> near;
+    [[no_unique_address]] std::conditional_t<breakable, breakage_state, unbroken> broken;
+
+    engine_totals totals;
+    double dt = 0.0;     ///< s
+    int light_steps = 1; ///< sub-steps of light bodies in a step
+    bool estimate_due = false;
+    double smallest_mass = std::numeric_limits<double>::infinity(); ///< of a body (kg)
+
+    // ---- work space, written anew in every step ---------------------------------------------------------------------
+    std::vector<boundaries::facet_load> loads;
+    std::vector<boundaries::facet_load> light_loads; ///< mean over the sub-steps of light bodies
+    std::vector<boundaries::coupling> couplings;
+    body_ranges ranges;                      ///< of bodies, one for each thread
+    std::vector<range_work> sweeping;        ///< per range
+    std::vector<contact_load<>> shared_load; ///< of the contacts between two ranges
+    std::vector<load_sum> acting;            ///< per body; zero between steps
+    [[no_unique_address]] typename space_type::crossings crossings;
+
+    scene(engine_settings<P> s, body_type bodies, boundary_type around, space_type in)
+        : settings(std::move(s)), grains(std::move(bodies)), boundary(std::move(around)), space(std::move(in)) {}
+
+    // ---- what is asked of them everywhere ---------------------------------------------------------------------------
+    static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+    const vec3& position(std::int32_t pebble) const { return grains.pebbles[at(pebble)].x; } ///< m
+    double radius(std::int32_t pebble) const { return grains.pebbles[at(pebble)].radius; }   ///< m
+    auto body_of() const {
+        return [this](std::int32_t pebble) { return grains.body_of(pebble); };
+    }
+    /// Order of the lists: by first body, second pebble, first pebble.
+    auto pair_order() const {
+        return [this](const pebble_pair& a, const pebble_pair& b) {
+            const std::size_t ga = grains.group_of(a.i), gb = grains.group_of(b.i);
+            return ga != gb ? ga < gb : a.j != b.j ? a.j < b.j : a.i < b.i;
+        };
+    }
+    /// f(k) for the heavy contacts in the order that one thread gives them.
+    template <class F> void each_heavy(F&& f) const { heavy.each_in_order(pair_order(), f); }
+    /// From pebble i to the image of pebble j that pair k of a list means (m).
+    vec3 apart(const pair_list& list, std::size_t k) const {
+        const pebble_pair& p = list.pairs[k];
+        return space.across(position(p.j) - position(p.i), list.image_of(k));
+    }
+    void index_heavy() {
+        if (!heavy_of)
+            heavy_of = incidence(
+                grains.body_count(), heavy, [&](auto&& f) { each_heavy(f); }, heavy_wall, body_of());
+    }
+    void index_light() {
+        light_of = incidence(
+            grains.movable_count(), light, [&](auto&& f) { light.each_in_order(pair_order(), f); }, light_wall,
+            body_of());
+    }
+
+    /// Calls f(row, pair) for all contacts listed in the last step, in an order that does not depend on threads; body
+    /// ids of a pair through grains.body_of. Before the first step there are none.
+    template <class F> void each_contact(F&& f) const {
+        if (!heavy.rows.empty()) each_heavy([&](std::size_t k) { f(heavy.rows[k], heavy.pairs[k]); });
+        for (std::size_t k = 0; k < light.size(); ++k) f(light.rows[k], light.pairs[k]);
+    }
+    template <class F> void each_wall_row(F&& f) const {
+        for (const wall_row& w : heavy_wall) f(w);
+        for (const wall_row& w : light_wall) f(w);
+    }
+    /// Centre of the body of a pebble (m).
+    vec3 centre_of(std::int32_t pebble) const {
+        const std::size_t body = grains.body_of(pebble);
+        return body < grains.body_count() ? grains.centre(body) : position(pebble);
+    }
+    /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
+    /// faces of a periodic cell, too.
+    vec3 branch_of(const force_row& row, const pebble_pair& pair) const {
+        const vec3 between = (radius(pair.i) + radius(pair.j) - row.depth) * row.normal;
+        if constexpr (body_type::turns)
+            return position(pair.i) - centre_of(pair.i) + between + centre_of(pair.j) - position(pair.j);
+        return between;
+    }
+
+    /// State, list order and reference positions included. Rows are not part of it, because a step writes all of them
+    /// before it reads any; events must have been taken.
+    template <class A> void archive(A& a) {
+        a(grains, boundary, space, settings.grain_contact, breakage_on, totals, dt, light_steps, estimate_due);
+        a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
+        a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
+        a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
+        broken.archive(a);
+    }
+};
+
+} // namespace clast

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The time step from present stiffness: over heavy bodies and their present contacts, at most as large as three typical
+// contacts would allow.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <clast/bodies/contact_list.hpp>
+#include <clast/engine/scene.hpp>
+#include <clast/engine/walls.hpp>
+#include <clast/integrators/time_step.hpp>
+
+namespace clast::rooms {
+
+/// Step (s) that three typical contacts would allow a body of this mass (kg): an upper bound, because contacts come and
+/// go between two estimates.
+template <class S> double typical_limit(const S& s, double mass) {
+    const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
+    const auto& law = s.settings.grain_contact;
+    const double k = (law.normal_stiffness(typical) + 2.0 * law.shear_stiffness(typical)) / 3.0;
+    return s.settings.safety * std::sqrt(mass / (3.0 * k));
+}
+
+/// Whether the number of listed contacts is enough to see that a body allows a step (s): each adds at most its
+/// stiffness, at the farthest point of the body.
+template <class S> bool surely_allows(const S& s, std::size_t body, double step) {
+    if constexpr (requires { requires S::contact::constant_stiffness; }) {
+        const auto around = s.heavy_of->of(body);
+        if (!around.empty() && around.back().row() >= s.heavy.size()) return false; // walls have laws of their own
+        if (s.broken.has_balls() && !s.light_of.of(body).empty()) return false;
+        const contacts::overlap<double> any{0, 0, 1, 0, 1, 1};
+        const double shear = s.settings.grain_contact.shear_stiffness(any),
+                     normal = std::max(s.settings.grain_contact.normal_stiffness(any), shear);
+        const double turning = S::body_type::turns ? normal : shear; // of a sphere forces along n have no arm
+        const double reach = s.grains.bounding_radius(body);
+        const vec3 inertia = s.grains.body_inertia(body);
+        const double largest = std::max(normal / s.grains.body_mass(body),
+                                        turning * reach * reach / std::min({inertia.x, inertia.y, inertia.z}));
+        return step * step * static_cast<double>(around.size()) * largest <= s.settings.safety * s.settings.safety;
+    }
+    return false;
+}
+
+/// Adds the stiffness of the rows that act on a body; centre: of what they turn (m).
+template <class S>
+void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_t body,
+                   const contact_list<typename S::history>& list, const std::vector<boundaries::wall_row>& wall,
+                   const vec3& centre) {
+    for (const incidence::entry& one : of.of(body)) {
+        const std::size_t r = one.row();
+        if (r < list.size()) {
+            const pebble_pair& pair = list.pairs[r];
+            const vec3 d = s.apart(list, r);
+            const double ri = s.radius(pair.i), rj = s.radius(pair.j), distance = norm(d);
+            if (distance >= ri + rj) continue;
+            const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
+            const vec3 n = d / distance;
+            k.add(n, s.settings.grain_contact.normal_stiffness(o), s.settings.grain_contact.shear_stiffness(o),
+                  s.position(one.pebble) - centre + (one.side() * (s.radius(one.pebble) - 0.5 * o.depth)) * n);
+        } else {
+            const boundaries::wall_row& w = wall[r - list.size()];
+            const double rp = s.radius(w.pebble);
+            for (const boundaries::touch& t : w.touch)
+                k.add(t.normal, law_at(s, t).normal_stiffness({0, 0, 1, t.depth, rp, rp}), 0.0,
+                      s.position(w.pebble) - rp * t.normal - centre);
+        }
+    }
+}
+
+/// dt of a scene, after some steps or from the beginning (first). Light bodies do not shrink it: they set the number of
+/// sub-steps (light_bodies.hpp).
+template <class S> void estimate_step(S& s, bool first) {
+    // from the present positions, not from what an earlier step left behind: a restart must see the same
+    touch_walls(s, s.heavy_wall), touch_walls(s, s.light_wall);
+    const double limit = std::min(typical_limit(s, s.smallest_mass), s.settings.largest_step);
+    s.index_heavy();
+    const auto faster = [&](std::size_t b, double so_far) {
+        if (!s.grains.is_swept(b) || surely_allows(s, b, -so_far)) return so_far;
+        stiffness_sum k(s.grains.body_axes(b));
+        add_stiffness(s, k, *s.heavy_of, b, s.heavy, s.heavy_wall, s.grains.centre(b));
+        if (s.broken.has_balls()) add_stiffness(s, k, s.light_of, b, s.light, s.light_wall, s.grains.centre(b));
+        return -k.time_step(s.grains.body_mass(b), s.grains.body_inertia(b), s.settings.safety, -so_far);
+    };
+    const double least = -s.settings.run.max(s.grains.body_count(), -limit, faster);
+    // grow slowly: contacts that are about to form are not in the sum yet
+    s.dt = first ? least : std::min(least, 1.02 * s.dt);
+    if constexpr (!S::has_criterion) s.heavy_of.reset(); // a tenth of the memory, and no one else asks for it
+    s.estimate_due = false;
+}
+
+} // namespace clast::rooms

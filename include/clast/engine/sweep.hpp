@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The fused pass over heavy bodies: forces, sums and motion in one order.
+//
+// Pairs are sorted by their first body, then by their second pebble. So when the sweep has passed the pairs of body i,
+// every contact of i has been evaluated, as the first body or as the second, and i may move: no later contact reads it.
+// With several threads each sweeps a range of bodies of its own; contacts between two ranges are evaluated before. In
+// the order of the list the contacts of a body with lower ranges come first and those with higher ranges last, so
+// adding the former before the sweep of a range and the latter when a body moves leaves every sum as one thread would
+// have it, to the last bit.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include <clast/bodies/concepts.hpp>
+#include <clast/bodies/contact_list.hpp>
+#include <clast/engine/body_ranges.hpp>
+#include <clast/engine/kernel.hpp>
+#include <clast/engine/scene.hpp>
+
+namespace clast::rooms {
+
+/// Heavy contacts: what they exert is added to their bodies, or kept if they are between two ranges.
+template <class S> struct heavy_job {
+    S& scene;
+    std::size_t gathered, taken; ///< where to go on among the contacts that go across faces of the space
+    bool shared;                 ///< between two ranges
+    force_row* rows;             ///< of the list, or nullptr if nobody looks at them
+    load_sum* const acting = scene.acting.data();
+    contact_load<>* const shared_load = scene.shared_load.data();
+
+    [[gnu::always_inline]] void adjust(strip_of<S>& s, const contact_block& block) {
+        if (!shared && is_long_list(scene.heavy)) // what take() will add to
+            for (std::size_t k = 0; k < block.size; ++k)
+                __builtin_prefetch(&acting[static_cast<std::size_t>(s.bodies[block.at + k].j)], 1);
+        scene.crossings.adjust(gathered, s, block);
+    }
+    template <class Width>
+    [[gnu::always_inline]] void take(Width width, const strip_of<S>& s, const contact_block& block) {
+        each_load(width, s, block, *this);
+        scene.crossings.take(taken, s, block);
+        if (rows != nullptr) keep_rows(s, block, rows);
+    }
+    template <class Load>
+    [[gnu::always_inline]] void operator()(std::size_t row, const pebble_pair& bodies, const Load& load) const {
+        if (shared) {
+            load.store(shared_load[row]);
+        } else {
+            load.add_to_i(acting[static_cast<std::size_t>(bodies.i)]);
+            load.add_to_j(acting[static_cast<std::size_t>(bodies.j)]);
+        }
+    }
+};
+/// Evaluates some heavy contacts. across: crossings.from(rows.begin); returns that of rows.end.
+template <class S> std::size_t evaluate_heavy(S& s, index_range rows, std::size_t across, bool keep) {
+    return evaluate(s.heavy, rows, s.grains.view(), s.settings.grain_contact, s.dt,
+                    heavy_job<S>{s, across, across, rows.begin < s.heavy.shared, keep ? s.heavy.rows.data() : nullptr})
+        .taken;
+}
+
+/// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and wall
+/// rows that come next.
+template <class S> load_sum complete_load(S& s, std::size_t body, std::size_t& shared, std::size_t& wall) {
+    load_sum& sum = s.acting[body];
+    for (; shared < s.heavy.shared && s.grains.body_of(s.heavy.pairs[shared].i) == body; ++shared)
+        s.shared_load[shared].add_to_i(sum);
+    load_sum load = sum;
+    sum = {};
+    for (; wall < s.heavy_wall.size() && s.grains.body_of(s.heavy_wall[wall].pebble) == body; ++wall) {
+        const boundaries::wall_row& w = s.heavy_wall[wall];
+        load.force += w.force;
+        if constexpr (S::body_type::turns) load.moment += cross(s.position(w.pebble) - s.grains.centre(body), w.force);
+    }
+    s.broken.add_halo_load(body, load);
+    return load;
+}
+template <class S> void move_ready(S& s, range_work& work, const vec3& stretch) {
+    using allowed = allowance<typename S::body_type::reference>;
+    // light contacts see a clump along its velocity, half a step ahead
+    const auto ahead = [&](std::size_t body) { return s.broken.way_ahead(s.grains, body, s.dt); };
+    work.use =
+        std::max(work.use, s.grains.advance(std::span<const moving_body>(work.ready), s.dt, s.settings.damping,
+                                            s.listed, allowed{s.near.since.bodies, s.near.margins, stretch}, ahead));
+    work.ready.clear();
+}
+template <class S, class Look>
+void sweep_range(S& s, const body_range& r, range_work& work, bool keep, const vec3& stretch, Look&& look) {
+    for (std::uint32_t k : r.incoming) s.shared_load[k].add_to_j(s.acting[s.grains.body_of(s.heavy.pairs[k].j)]);
+    std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
+    std::size_t across = s.crossings.from(row);
+    work.use = margin_use::within;
+    for (;;) {
+        for (; body < r.bodies.end && s.ranges.end_of(body) <= row; ++body)
+            if (s.grains.is_swept(body)) {
+                work.ready.push_back({body, complete_load(s, body, shared, wall)});
+                look(body, work);
+                if (work.ready.size() == clump_strip::length) move_ready(s, work, stretch);
+            }
+        if (row == r.rows.end) break;
+        const std::size_t end = std::min(row + rows_at_once, r.rows.end);
+        across = evaluate_heavy(s, {row, end}, across, keep);
+        row = end;
+    }
+    move_ready(s, work, stretch);
+}
+
+/// Evaluates all heavy contacts and moves all heavy bodies. keep: rows of contacts are kept. look(body, range_work): is
+/// called for every body when its loads are complete and before it moves, by the thread that sweeps it.
+template <class S, class Look> margin_use sweep(S& s, bool keep, Look&& look) {
+    s.space.begin_sweep(s);
+    if (keep) s.heavy.rows.resize(s.heavy.size());
+    each_chunk(s.settings.run, s.heavy.shared,
+               [&](index_range some) { evaluate_heavy(s, some, s.crossings.from(some.begin), keep); });
+    const vec3 stretch = s.space.stretch_since(s.near.since.frame);
+    s.settings.run.for_each(
+        s.ranges.size(), [&](std::size_t r) { sweep_range(s, s.ranges[r], s.sweeping[r], keep, stretch, look); }, 1);
+    margin_use use = margin_use::within;
+    for (const range_work& r : s.sweeping) use = std::max(use, r.use);
+    return use;
+}
+
+} // namespace clast::rooms

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <clast/engine/audit.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <clast/engine/engine.hpp>
+
+#include <catch.hpp>
+
+#include "engine/scenes.hpp"
+
+using namespace clast;
+
+namespace {
+
+using rigid = scenes::unbreakable<>;
+
+} // namespace
+
+TEST_CASE("the energy ledger of a collision closes, better with the square of the step") {
+    const auto error = [](double safety, double damping) {
+        auto s = scenes::settings<rigid>();
+        s.damping = damping;
+        s.safety = safety;
+        engine<rigid> e = scenes::collision(s);
+        while (e.time() < 0.02) e.step();
+        CHECK(e.elastic_energy() == 0.0); // apart again
+        return std::abs(scenes::residual(e)) / e.totals().initial_energy;
+    };
+    const double coarse = error(0.2, 0.0), fine = error(0.025, 0.0);
+    CHECK(coarse < 1e-2);
+    CHECK(fine < coarse / 32); // 64 in the limit
+    CHECK(error(0.05, 0.7) < 1e-3);
+}
+
+TEST_CASE("the energy ledger of a packing under servo control closes to 2e-4 of the work") {
+    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 40, 0.065, 1e5, 6000);
+    const double work = e.totals().boundary_work, open = scenes::residual(e);
+    e.drives = scenes::isotropic(8e5, 0.02);
+    for (int k = 0; k < 6000; ++k) e.step();
+    CHECK(e.boundary.axial_stress(e.loads()) == Approx(8e5).epsilon(0.01));
+    CHECK(std::abs(scenes::residual(e) - open) < 2e-4 * (e.totals().boundary_work - work));
+}
