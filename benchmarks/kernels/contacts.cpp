@@ -9,6 +9,7 @@
 
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
+#include <clast/contacts/rolling.hpp>
 #include <clast/engine/kernel.hpp>
 
 namespace {
@@ -80,7 +81,8 @@ template <class Law> void in_list(benchmark::State& state, Law law) {
     BENCHMARK_CAPTURE(in_list, #__VA_ARGS__, __VA_ARGS__)->Arg(1'000)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)
 
 BENCHMARK_LAW(contacts::linear{1e6, 5e5, 0.3});
-BENCHMARK_LAW(contacts::linear_dashpot{1e6, 5e5, 0.3, 1e3, 2650.0});
+BENCHMARK_LAW(contacts::linear_dashpot{1e6, 5e5, 0.3, 1e3});
+BENCHMARK_LAW(contacts::rolling<contacts::linear>{{1e6, 5e5, 0.3}, 10.0, 0.1, 10.0, 0.1});
 
 } // namespace
 

@@ -38,8 +38,7 @@ spheres packing(std::size_t n) {
         const vec3 corner{static_cast<double>(k % side), static_cast<double>(k / side % side),
                           static_cast<double>(k / side / side)};
         for (std::size_t b = 0; b < base.grains.body_count(); ++b)
-            all.push_back(
-                {base.grains.centre(b) + scale(base.space.edges(), corner), base.grains.bounding_radius(b)});
+            all.push_back({base.grains.centre(b) + scale(base.space.edges(), corner), base.grains.bounding_radius(b)});
     }
     random_stream random{1, 2};
     for (std::size_t i = all.size() - 1; i > 0; --i) std::swap(all[i], all[random.bits() % (i + 1)]);

@@ -29,8 +29,7 @@ struct hertz {
         return normal_stiffness(o) * o.depth * o.depth / 3.75 + shear2 / (2 * shear_stiffness(o));
     }
     double normal_stiffness(const overlap& o) const { // tangent (N/m), for the time step and the servo
-        const double r = o.radius_i * o.radius_j / (o.radius_i + o.radius_j);
-        return 2 * modulus * std::sqrt(r * std::max(o.depth, 0.0));
+        return 2 * modulus * std::sqrt(o.reduced_radius() * std::max(o.depth, 0.0));
     }
     double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
 };

@@ -11,6 +11,7 @@
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
+#include <clast/contacts/rolling.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/criteria/one_of.hpp>
 #include <clast/engine/engine.hpp>

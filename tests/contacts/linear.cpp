@@ -60,7 +60,7 @@ struct pair_contact {
         const vec3 mid = unit(d - (0.5 * h) * (b.v - a.v));
         const vec3 u = h * reject(relative, mid);
         const auto answer =
-            law(overlap<double>{n.x, n.y, n.z, depth, a.r, b.r},
+            law(overlap<double>{n.x, n.y, n.z, depth, 1.0 / a.r, 1.0 / b.r},
                 motion<double>{u.x, u.y, u.z, 0.5 * h * dot(a.w + b.w, n), dot(relative, n), mid.x, mid.y, mid.z, 2.0},
                 history, h);
         const vec3 f = force_of(answer);
@@ -91,7 +91,7 @@ struct plane_contact {
         const double depth = a.r - a.x.z;
         const vec3 relative = a.v + cross(a.w, a.r * n);
         const vec3 u = h * reject(relative, n);
-        const auto answer = law(overlap<double>{n.x, n.y, n.z, depth, a.r, a.r},
+        const auto answer = law(overlap<double>{n.x, n.y, n.z, depth, 1.0 / a.r, 1.0 / a.r},
                                 motion<double>{u.x, u.y, u.z, h * dot(a.w, n), dot(relative, n)}, history, h);
         dissipated += answer.dissipated;
         normal_impulse += h * answer.fz;

@@ -16,13 +16,14 @@ TEST_CASE("a central collision with a dashpot loses what the closed form says, a
     const auto mass = [&](double r) { return density * 4.0 / 3.0 * std::numbers::pi * r * r * r; };
     const double reduced = mass(ri) * mass(rj) / (mass(ri) + mass(rj));
     for (const double gamma : {0.0, 500.0, 2000.0}) {
-        const linear_dashpot law{1e6, 5e5, 0.3, gamma, density};
+        const linear_dashpot law{1e6, 5e5, 0.3, gamma};
         linear_dashpot::history h;
         double d = 0.0, v = 0.5, lost = 0.0; // overlap and speed of approach, in the frame of the pair
         const double dt = 1e-3 / std::sqrt(1e6 / reduced);
         do {
             // leapfrog: the force of the half-step velocity that led here
-            const auto answer = law(overlap<double>{0, 0, 1, d, ri, rj}, motion<double>{0, 0, 0, 0, v}, h, dt);
+            const auto answer = law(overlap<double>{0, 0, 1, d, 1.0 / ri, 1.0 / rj, 1.0 / mass(ri), 1.0 / mass(rj)},
+                                    motion<double>{0, 0, 0, 0, v}, h, dt);
             v += dt * answer.fz / reduced; // the force on i points away from j
             lost += answer.dissipated;
             d += dt * v;
@@ -36,20 +37,27 @@ TEST_CASE("a central collision with a dashpot loses what the closed form says, a
 
 TEST_CASE(
     "a dashpot pulls before separation, never without contact, and friction follows the size of the normal force") {
-    const linear_dashpot law{1e6, 5e5, 0.5, 1e4, 2650.0};
+    const linear_dashpot law{1e6, 5e5, 0.5, 1e4};
     linear_dashpot::history h;
-    const auto pulled = law(overlap<double>{0, 0, 1, 1e-6, 0.01, 0.01}, motion<double>{1e-3, 0, 0, 0, -1.0}, h, 1e-5);
+    const auto pulled =
+        law(overlap<double>{0, 0, 1, 1e-6, 100.0, 100.0, 90.0, 90.0}, motion<double>{1e-3, 0, 0, 0, -1.0}, h, 1e-5);
     CHECK(pulled.fz > 0.0);
     CHECK(std::abs(pulled.fx) == Approx(0.5 * pulled.fz).epsilon(1e-12));
     CHECK(pulled.dissipated > 0.0);
-    const auto open = law(overlap<double>{0, 0, 1, -1e-6, 0.01, 0.01}, motion<double>{1e-3, 0, 0, 0, -1.0}, h, 1e-5);
+    const auto open =
+        law(overlap<double>{0, 0, 1, -1e-6, 100.0, 100.0, 90.0, 90.0}, motion<double>{1e-3, 0, 0, 0, -1.0}, h, 1e-5);
     CHECK(open.fx == 0.0);
     CHECK(open.fz == 0.0);
 }
 
-TEST_CASE("grains of one given mass are damped with half of it") {
-    const linear_dashpot law{0.0, 0.0, 0.0, 100.0, 0.0, 0.2};
+TEST_CASE("a dashpot at a wall is that of the whole body, between two of a kind that of half of one") {
+    const linear_dashpot law{0.0, 0.0, 0.0, 100.0};
     linear_dashpot::history h;
-    CHECK(law(overlap<double>{0, 0, 1, 1e-6, 0.01, 0.03}, motion<double>{0, 0, 0, 0, 1.0}, h, 1e-5).fz ==
-          Approx(-10.0).epsilon(1e-12));
+    const auto force = [&](double inverse_i, double inverse_j) {
+        return law(overlap<double>{0, 0, 1, 1e-6, 100.0, 0.0, inverse_i, inverse_j}, motion<double>{0, 0, 0, 0, 1.0}, h,
+                   1e-5)
+            .fz;
+    };
+    CHECK(force(5.0, 0.0) == Approx(-20.0).epsilon(1e-12)); // 0.2 kg
+    CHECK(force(5.0, 5.0) == Approx(-10.0).epsilon(1e-12));
 }

@@ -161,7 +161,7 @@ struct spheres_in_cell_with_dashpots {
     static constexpr std::int64_t steps = 1200;
     static engine<policies> start(int threads) {
         constexpr int n = 7;
-        const contacts::linear_dashpot law{.kn = 1e6, .ks = 5e5, .mu = 0.3, .gamma = 2000.0, .density = 2700.0};
+        const contacts::linear_dashpot law{.kn = 1e6, .ks = 5e5, .mu = 0.3, .gamma = 2000.0};
         auto s = one_law<policies>(law, 0.0, threads);
         s.safety = 0.4;
         engine<policies> e(s, spheres(n, 0.0205), spaces::periodic({0.0205 * n, 0.0205 * n, 0.0205 * n}));
@@ -211,8 +211,7 @@ struct hertz {
         return normal_stiffness(o) * o.depth * o.depth / 3.75 + shear2 / (2.0 * shear_stiffness(o));
     }
     double normal_stiffness(const overlap& o) const {
-        const double r = o.radius_i * o.radius_j / (o.radius_i + o.radius_j);
-        return 2.0 * modulus * std::sqrt(r * std::max(o.depth, 0.0));
+        return 2.0 * modulus * std::sqrt(o.reduced_radius() * std::max(o.depth, 0.0));
     }
     double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
 };

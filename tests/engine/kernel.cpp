@@ -125,7 +125,7 @@ TEST_CASE("every contact is answered as by the law alone, and open pairs exert n
         const vec3 middle = unit(b.x - a.x - 0.5 * h * (b.v - a.v));
         const vec3 u = h * reject(slip, middle);
         linear::history history = before.history[k];
-        const auto answer = s.law(contacts::overlap<double>{n.x, n.y, n.z, depth, a.radius, b.radius},
+        const auto answer = s.law(contacts::overlap<double>{n.x, n.y, n.z, depth, 1.0 / a.radius, 1.0 / b.radius},
                                   contacts::motion<double>{u.x, u.y, u.z, 0.5 * h * dot(a.w + b.w, n), dot(slip, n),
                                                            middle.x, middle.y, middle.z, 2.0},
                                   history, h);
@@ -178,7 +178,7 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
         const vec3 arm{0.01 * std::sin(u), 0.02 * std::cos(3.0 * u), -0.01 * std::sin(2.0 * u)};
         const pebble_motion& one = s.pebbles[p];
         pebbles.push_back({one.x, one.radius});
-        bodies.emplace_back(one.x - arm, one.v - cross(one.w, arm), one.w);
+        bodies.emplace_back(one.x - arm, one.v - cross(one.w, arm), one.w, one.inverse_mass);
         owner.push_back(static_cast<std::int32_t>(s.pebbles.size() - 1 - p));
     }
     std::reverse(bodies.begin(), bodies.end());
@@ -211,4 +211,67 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
     }
     CHECK(touching > 20);
     CHECK(booked > 5);
+}
+
+namespace {
+/// Answers with what it is given, so that rows and loads show it.
+struct told {
+    struct history {};
+    double at_distance = 0.0;
+
+    contacts::wrench<double> operator()(const contacts::overlap<double>& o, const contacts::motion<double>& m, history&,
+                                        double) const {
+        return {{o.reduced_radius(), o.reduced_mass(), o.depth, 0.0}, m.rx, m.ry, m.rz};
+    }
+    double reach() const { return at_distance; }
+    double stored(const contacts::overlap<double>&, const history&) const { return 0.0; }
+    double normal_stiffness(const contacts::overlap<double>&) const { return 1.0; }
+    double shear_stiffness(const contacts::overlap<double>&) const { return 0.0; }
+};
+struct told_job {
+    contact_list<told::history>& list;
+    std::vector<contact_load<>>& loads;
+    void adjust(strip<told, sphere_view>&, const contact_block&) const {}
+    template <class Width> void take(Width width, const strip<told, sphere_view>& s, const contact_block& block) {
+        keep_rows(s, block, list.rows.data());
+        each_load(width, s, block, *this);
+    }
+    template <class Load> void operator()(std::size_t row, const pebble_pair&, const Load& load) const {
+        load.store(loads[row]);
+    }
+};
+} // namespace
+
+TEST_CASE("a law is given both curvatures and masses and the relative rotation, and may answer a moment") {
+    std::vector<pebble_motion> pebbles(3);
+    pebbles[0] = {{0, 0, 0}, 0.01, {}, 4.0, {1.0, 2.0, 3.0}, 0.0};
+    pebbles[1] = {{0.0395, 0, 0}, 0.03, {}, 12.0, {0.0, -1.0, 0.5}, 0.0};
+    pebbles[2] = {{0, 0.0201, 0}, 0.01, {}, 4.0, {}, 0.0}; // 0.1 mm apart from the first
+    const double h = 1e-3;
+    for (const double reach : {0.0, 2e-4}) {
+        contact_list<told::history> list;
+        list.pairs = {{0, 1}, {0, 2}};
+        list.resize(), list.rows.resize(2);
+        std::vector<contact_load<>> loads(2);
+        evaluate(list, {0, 2}, sphere_view{pebbles.data()}, told{reach}, h, told_job{list, loads});
+        CHECK(list.rows[0].force.x == Approx(0.0075)); // 1 / (100 + 33.3)
+        CHECK(list.rows[0].force.y == Approx(1.0 / 16.0));
+        CHECK(list.rows[0].force.z == Approx(5e-4));
+        // its own moment and that of the force, for i and j
+        const vec3 own = h * vec3{1.0, 3.0, 2.5};
+        const vec3 turn = cross({1, 0, 0}, list.rows[0].force);
+        load_sum i, j;
+        loads[0].add_to_i(i), loads[0].add_to_j(j);
+        CHECK(norm(i.moment - (0.00975 * turn + own)) < 1e-15);
+        CHECK(norm(j.moment - (0.02975 * turn - own)) < 1e-15);
+        // beyond touch it acts as far as it says
+        CHECK(list.rows[1].force.z == Approx(reach > 0.0 ? -1e-4 : 0.0).margin(1e-18));
+        CHECK((list.rows[1].depth < 0.0) == (reach > 0.0));
+    }
+}
+
+TEST_CASE("masses are gathered for laws that read them only") {
+    static_assert(!strip<linear, sphere_view>::has_masses && strip<told, sphere_view>::has_masses);
+    static_assert(sizeof(strip<linear, sphere_view>::mass_i) == sizeof(double));
+    SUCCEED("checked at compile time");
 }

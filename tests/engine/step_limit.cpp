@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clast/engine/step_limit.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

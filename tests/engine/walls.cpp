@@ -64,3 +64,38 @@ TEST_CASE("a platen that pushes a clump does the work that the clump receives") 
     CHECK(e.totals().boundary_work == Approx(e.kinetic_energy()).epsilon(1e-3));
     CHECK(momentum(e.grains).z > 0.0);
 }
+
+namespace {
+/// Answers with the geometry that it is given.
+struct told {
+    struct history {};
+    contacts::response<double> operator()(const contacts::overlap<double>& o, const contacts::motion<double>&, history&,
+                                          double) const {
+        return {0.0, 0.0, -o.reduced_radius() * o.reduced_mass(), 0.0};
+    }
+    double stored(const contacts::overlap<double>&, const history&) const { return 0.0; }
+    double normal_stiffness(const contacts::overlap<double>&) const { return 1e6; }
+    double shear_stiffness(const contacts::overlap<double>&) const { return 0.0; }
+};
+struct tells : rigid {
+    using contact = told;
+};
+} // namespace
+
+TEST_CASE("to a law a wall is flat and heavy: R is the radius of the pebble, m the mass of its body") {
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    sp.add(0, {}, {});
+    boundaries::cylinder_settings c = scenes::cylinder_around(sp, 1e-5);
+    const double r = sp.pebbles[0].radius, mass = sp.mass_of(sp.grains[0]);
+    engine<tells> e(
+        {.grain_contact = {}, .platen_contact = {}, .lateral_contact = {}, .breakage = {}, .replacement = {}}, sp,
+        boundaries::solid_strips(c));
+    e.step();
+    std::size_t rows = 0;
+    e.each_wall_row([&](const boundaries::wall_row& w) {
+        if (w.touch.size == 0) return;
+        CHECK(norm(w.force) == Approx(r * mass).epsilon(1e-12));
+        ++rows;
+    });
+    CHECK(rows == 4);
+}

@@ -46,8 +46,7 @@ int main(int argc, char** argv) try {
     const peers::scene s = peers::read(argc, argv);
     const auto members = peers::by_owner(s);
     clast::bodies::clumps grains = peers::grains_of(s, members, overlapping(members[0]));
-    const double mass = grains.mass_of(grains.grains[0]);
-    const auto law = peers::grain_law(s, mass);
+    const auto law = peers::grain_law(s);
     clast::engine<clumps> e(peers::settings<clumps>(s, law, peers::wall_law(law)), std::move(grains), peers::walls(s));
     peers::drive_walls(e, s);
     peers::run_in_walls("clumps", e, s, members.size());

@@ -168,14 +168,10 @@ template <class Boundary, class Space = clast::spaces::open> struct spheres_in :
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };
-/// Law between two grains; mass: of every clump (kg), 0 for spheres.
-inline clast::contacts::linear_dashpot grain_law(const scene& s, double mass = 0.0) {
-    return {s["kn"], s["kt"], s["mu"], s["gamma_n"], s["density"], mass};
-}
-/// The same at a frictionless wall, where m_eff = m.
+inline clast::contacts::linear_dashpot grain_law(const scene& s) { return {s["kn"], s["kt"], s["mu"], s["gamma_n"]}; }
+/// The same at a frictionless wall.
 inline clast::contacts::linear_dashpot wall_law(clast::contacts::linear_dashpot law) {
     law.ks = law.mu = 0.0;
-    law.gamma *= 2.0;
     return law;
 }
 /// The spheres of a scene around `origin`, in its flow.

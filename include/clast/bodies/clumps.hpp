@@ -95,7 +95,7 @@ struct clumps {
             mother.push_back(id);
             owner.push_back(id);
         }
-        motion.push_back({centre, {}, {}});
+        motion.push_back({centre, {}, {}, of_shape[static_cast<std::size_t>(shape_index)].inverse_mass});
         turning.push_back({q, {}});
         losses.push_back({});
         return id;
@@ -124,6 +124,8 @@ struct clumps {
         const body_motion& m = motion[b];
         return b < grains.size() ? m.v + cross(m.w, pebbles[static_cast<std::size_t>(pebble)].x - m.x) : m.v;
     }
+    /// Of the body of a pebble (1/kg).
+    double inverse_mass_of(std::int32_t pebble) const { return motion[body_of(pebble)].inverse_mass; }
     /// Pebbles of one group stand together; contact lists are sorted by the group of the first pebble.
     std::size_t group_of(std::int32_t pebble) const {
         return static_cast<std::size_t>(mother[static_cast<std::size_t>(pebble)]);
@@ -287,7 +289,7 @@ struct clumps {
         };
         constexpr std::size_t block = quad_size;
         each(motion, 0, s.x + k, s.y + k, s.z + k, nothing);
-        each(motion, block, s.vx + k, s.vy + k, s.vz + k, nothing);
+        each(motion, block, s.vx + k, s.vy + k, s.vz + k, s.inverse_mass + k);
         each(motion, 2 * block, s.wx + k, s.wy + k, s.wz + k, nothing);
         each(turning, 0, s.nw + k, s.nx + k, s.ny + k, s.nz + k);
         each(turning, block, s.lx + k, s.ly + k, s.lz + k, nothing);

@@ -70,6 +70,7 @@ concept swept = std::movable<S> &&
     { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.velocity_of(std::int32_t{}) } -> std::convertible_to<vec3>;
+    { c.inverse_mass_of(std::int32_t{}) } -> std::same_as<double>;
     c.view();
     { c.centre(b) } -> std::convertible_to<vec3>;
     { c.bounding_radius(b) } -> std::same_as<double>;

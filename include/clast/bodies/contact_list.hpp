@@ -36,15 +36,16 @@ static_assert(sizeof(pebble_motion) == 12 * sizeof(double) && sizeof(clump_pebbl
 /// Motion of a body (clump or ball): centre at t_n, velocities over the step that led to t_n. In blocks of four
 /// numbers, as contacts read them.
 struct alignas(32) body_motion {
-    vec3 x; ///< mass centre (m)
-    double spare_x = 0.0;
-    vec3 v; ///< m/s
-    double spare_v = 0.0;
-    vec3 w; ///< rad/s, world axes
-    double spare_w = 0.0;
+    vec3 x;                    ///< mass centre (m)
+    double spare_x = 0.0;      ///< fills the block
+    vec3 v;                    ///< m/s
+    double inverse_mass = 0.0; ///< 1/kg
+    vec3 w;                    ///< rad/s, world axes
+    double spare_w = 0.0;      ///< fills the block
 
     body_motion() = default;
-    body_motion(const vec3& centre, const vec3& velocity, const vec3& spin) : x(centre), v(velocity), w(spin) {}
+    body_motion(const vec3& centre, const vec3& velocity, const vec3& spin, double inverse)
+        : x(centre), v(velocity), inverse_mass(inverse), w(spin) {}
 };
 static_assert(sizeof(body_motion) == 12 * sizeof(double));
 

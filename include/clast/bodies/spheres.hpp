@@ -55,6 +55,7 @@ struct spheres {
     static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     sphere_view view() const { return {pebbles.data()}; }
     const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
+    double inverse_mass_of(std::int32_t pebble) const { return pebbles[body_of(pebble)].inverse_mass; }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }

@@ -7,12 +7,20 @@
 
 namespace clast::contacts {
 
-/// Geometry of a contact of pebbles i and j at the present instant. T is any arithmetic-like type.
+/// Geometry and inertia of a contact of pebble i with pebble j, or with a wall, at the present instant. A wall is flat
+/// and does not yield: its curvature and inverse mass are 0. T is any arithmetic-like type.
 template <class T> struct overlap {
-    T nx, ny, nz; ///< unit normal from i to j
-    T depth;      ///< overlap (m), positive when touching
-    T radius_i;   ///< (m)
-    T radius_j;   ///< (m); a wall passes the radius of i
+    T nx, ny, nz;       ///< unit normal from i to j
+    T depth;            ///< overlap (m), positive when touching
+    T curvature_i;      ///< 1 / radius of the pebble (1/m)
+    T curvature_j;      ///< (1/m); a wall's is 0
+    T inverse_mass_i{}; ///< of the body of i (1/kg): the clump, or the ball
+    T inverse_mass_j{}; ///< (1/kg); a wall's is 0
+
+    /// R of Hertz' theory, 1/R = 1/R_i + 1/R_j (m).
+    constexpr T reduced_radius() const { return 1.0 / (curvature_i + curvature_j); }
+    /// m of a collision, 1/m = 1/m_i + 1/m_j (kg).
+    constexpr T reduced_mass() const { return 1.0 / (inverse_mass_i + inverse_mass_j); }
 };
 
 /// Relative motion over the last step, at the contact point.
@@ -22,6 +30,8 @@ template <class T> struct motion {
     T approach;         ///< normal speed of approach (m/s)
     T mx{}, my{}, mz{}; ///< normal of mid-step, of any length
     T reflect{};        ///< 2 / (m . m); 0: the normal has not turned
+    /// Rotation of i relative to j over the step (rad): along the normal they twist, across it they roll.
+    T rx{}, ry{}, rz{};
 };
 
 /// Turns a vector of the old contact plane into the new one: v - reflect (m . v) m. A reflection keeps its size, and as
@@ -37,21 +47,58 @@ template <class T> struct response {
     T fx, fy, fz; ///< force on i (N); the force on j is opposite
     T dissipated; ///< energy dissipated by the contact in this step (J)
 };
+/// What a law with moments of its own answers. The moments that forces have about the centres are no part of it.
+template <class T> struct wrench : response<T> {
+    T mx{}, my{}, mz{}; ///< moment on i (N m); the moment on j is opposite
+};
 
-/// A law declares its `history` (trivially copyable; empty if it has none) and answers to geometry and motion. It is
-/// asked about listed pairs that do not touch (depth <= 0), too: their force is dropped, their history and losses
-/// count. `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the time-step estimate and the
-/// servo. A law whose stiffnesses do not depend on the overlap may say so, `static constexpr bool constant_stiffness =
-/// true`: the estimate is cheaper then.
+/// A law declares its `history` (trivially copyable; empty if it has none) and answers to geometry and motion with a
+/// response or a wrench. It is asked about listed pairs that do not touch (depth <= 0), too: their force is dropped,
+/// their history and losses count. `stored` is the elastic energy that it holds (J); the stiffnesses (N/m) feed the
+/// time-step estimate and the servo. It may also say
+/// - `static constexpr bool constant_stiffness = true`: stiffnesses do not depend on the overlap; the estimate is
+///   cheaper then;
+/// - `static constexpr bool uses_masses = false`: it reads no mass, so none is gathered for it;
+/// - `double rolling_stiffness(o) const` and `twisting_stiffness(o)` (N m): of moments that resist a relative rotation;
+/// - `double reach() const`: how far beyond touch two pebbles feel each other (m), >= 0; at walls it acts on touch.
 template <class L>
 concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename L::history> &&
     std::default_initializable<typename L::history> &&
     requires(const L law, overlap<double> o, motion<double> m, typename L::history& h, const typename L::history& ch,
              double dt) {
-    { law(o, m, h, dt) } -> std::same_as<response<double>>;
+    { law(o, m, h, dt) } -> std::convertible_to<response<double>>;
     { law.stored(o, ch) } -> std::convertible_to<double>;
     { law.normal_stiffness(o) } -> std::convertible_to<double>;
     { law.shear_stiffness(o) } -> std::convertible_to<double>;
 };
+
+/// A law with Coulomb friction, whose coefficient is its member `mu`.
+template <class L>
+concept frictional = requires(L law) {
+    { law.mu } -> std::convertible_to<double>;
+};
+
+/// A law whose moments resist a relative rotation.
+template <class L>
+concept resists_rotation = requires(const L law, overlap<double> o) {
+    { law.rolling_stiffness(o) } -> std::convertible_to<double>;
+    { law.twisting_stiffness(o) } -> std::convertible_to<double>;
+};
+
+/// How far beyond touch pebbles feel each other (m).
+template <class L> constexpr double reach_of([[maybe_unused]] const L& law) {
+    if constexpr (requires { law.reach(); }) return law.reach();
+    return 0.0;
+}
+/// Whether masses are gathered for a law.
+template <class L> constexpr bool reads_masses() {
+    if constexpr (requires { L::uses_masses; }) return L::uses_masses;
+    return true;
+}
+/// Whether its stiffnesses are the same at any overlap.
+template <class L> constexpr bool is_of_constant_stiffness() {
+    if constexpr (requires { L::constant_stiffness; }) return L::constant_stiffness;
+    return false;
+}
 
 } // namespace clast::contacts

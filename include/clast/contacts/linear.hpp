@@ -66,7 +66,7 @@ struct linear {
     double mu = 0.0; ///< friction coefficient
 
     using history = shear_history;
-    static constexpr bool constant_stiffness = true;
+    static constexpr bool constant_stiffness = true, uses_masses = false;
 
     /// Contact of two pieces in series, with the smaller friction.
     static constexpr linear between(const piece& a, const piece& b) {

@@ -2,8 +2,6 @@
 // Linear springs with a dashpot along the normal: what dynamic scenes and other programs use instead of local damping.
 #pragma once
 
-#include <numbers>
-
 #include <clast/contacts/linear.hpp>
 
 namespace clast::contacts {
@@ -12,17 +10,14 @@ namespace clast::contacts {
 ///
 ///     F_n = k_n depth + gamma m_eff v,   m_eff = m_i m_j / (m_i + m_j),   |F_s| <= mu |F_n|
 ///
-/// with v the speed of approach. Just before separation F_n may pull. Restitution of a central collision
-/// e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)). Masses are those of solid spheres of `density`, or `mass` for
-/// both grains if that is given (clumps of one kind). At a wall, which passes the radius of i twice, m_eff is m / 2:
-/// give the wall's law twice the gamma. Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
+/// with v the speed of approach and the masses of the two bodies (at a wall m_eff is that of the body). Just before
+/// separation F_n may pull. Restitution of a central collision e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)).
+/// Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
 struct linear_dashpot {
-    double kn = 0.0;      ///< normal stiffness of the contact (N/m)
-    double ks = 0.0;      ///< shear stiffness of the contact (N/m)
-    double mu = 0.0;      ///< friction coefficient
-    double gamma = 0.0;   ///< damping rate (1/s), >= 0
-    double density = 0.0; ///< of the grains (kg/m^3)
-    double mass = 0.0;    ///< of every grain (kg); 0: from density and radius
+    double kn = 0.0;    ///< normal stiffness of the contact (N/m)
+    double ks = 0.0;    ///< shear stiffness of the contact (N/m)
+    double mu = 0.0;    ///< friction coefficient
+    double gamma = 0.0; ///< damping rate (1/s), >= 0
 
     using history = shear_history;
     static constexpr bool constant_stiffness = true;
@@ -48,10 +43,7 @@ struct linear_dashpot {
 
   private:
     template <class T> [[gnu::always_inline]] T damper(const overlap<T>& o, const motion<T>& m) const {
-        const T i3 = o.radius_i * o.radius_i * o.radius_i, j3 = o.radius_j * o.radius_j * o.radius_j;
-        const T of_spheres = (4.0 / 3.0 * std::numbers::pi * density) * (i3 * j3 / (i3 + j3));
-        const T reduced = mass > 0.0 ? T(0.5 * mass) : of_spheres;
-        return gamma * reduced * m.approach;
+        return gamma * o.reduced_mass() * m.approach;
     }
 };
 

@@ -24,21 +24,19 @@ template <class S> double elastic_energy(const S& s) {
     double e = 0.0;
     const auto add = [&](const list_type& list, std::size_t k) {
         const pebble_pair& pair = list.pairs[k];
-        const double d = norm(s.apart(list, k));
-        const double ri = s.radius(pair.i), rj = s.radius(pair.j);
+        const double depth = s.radius(pair.i) + s.radius(pair.j) - norm(s.apart(list, k));
         const typename S::history none{};
         const typename S::history* h = &none;
         if constexpr (list_type::remembers) h = &list.history[k];
-        e += s.settings.grain_contact.stored({0, 0, 1, ri + rj - d, ri, rj}, *h);
+        e += s.settings.grain_contact.stored(s.overlap_of(pair, depth), *h);
     };
     s.each_heavy([&](std::size_t k) { add(s.heavy, k); });
     for (std::size_t k = 0; k < s.light.size(); ++k) add(s.light, k);
     s.each_wall_row([&](const boundaries::wall_row& w) {
-        const double r = s.radius(w.pebble);
         const double lateral = norm(boundaries::lateral_push(w.touch));
-        if (lateral > 0.0) e += s.settings.lateral_contact.stored({0, 0, 1, lateral, r, r}, {});
+        if (lateral > 0.0) e += s.settings.lateral_contact.stored(s.overlap_at_wall(w.pebble, lateral), {});
         for (const boundaries::touch& t : w.touch)
-            if (t.at_platen()) e += s.settings.platen_contact.stored({0, 0, 1, t.depth, r, r}, {});
+            if (t.at_platen()) e += s.settings.platen_contact.stored(s.overlap_at_wall(w.pebble, t.depth), {});
     });
     return s.broken.add_bond_energy(e);
 }

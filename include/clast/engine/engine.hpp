@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -142,11 +143,17 @@ template <simulator_policies P> class engine : private scene<P> {
         }
         s.broken.begin(grains, settings);
         s.smallest_mass = grains.smallest_mass();
+        s.smallest_radius = smallest_radius();
         s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         rooms::sort_pebbles(s);
         s.totals.initial_energy = kinetic_energy();
         rooms::make_lists(s);
         estimate(true);
+    }
+    double smallest_radius() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& p : grains.pebbles) least = std::min(least, p.radius);
+        return least;
     }
     double mean_bounding_radius() const {
         double sum = 0.0;

@@ -33,14 +33,17 @@ template <contacts::contact_law Law, class View> struct strip {
     static constexpr std::size_t blocks = 4; ///< that are gathered, answered and handed on at the same time
     static constexpr std::size_t length = blocks * lanes;
     static constexpr bool has_arms = std::is_same_v<View, clump_view>;
+    static constexpr bool has_masses = contacts::reads_masses<Law>();
     using row = double[length];
     using arm_row = double[has_arms ? length : 1];
+    using mass_row = double[has_masses ? length : 1];
 
     pebble_pair bodies[length];       ///< numbers of the bodies of i and j, in this order
     alignas(64) row dx, dy, dz;       ///< x_j - x_i (m)
     row vx, vy, vz;                   ///< v_j - v_i of the bodies, behind make_lengths of the pebbles (m/s)
     row ix, iy, iz, jx, jy, jz;       ///< w_i and w_j (rad/s)
     row radius_i, radius_j;           ///< m
+    mass_row mass_i, mass_j;          ///< inverse masses of the bodies (1/kg), for laws that read them
     row distance, inverse, reflect;   ///< lengths_of the contact, where they are made ahead
     arm_row aix, aiy, aiz;            ///< from the centre of the body to x_i (m)
     arm_row ajx, ajy, ajz;            ///< and to x_j
@@ -120,6 +123,8 @@ template <std::size_t N, class Law, class View>
             row::load(bj, centre, body), difference(body, j, s.ajx + k, s.ajy + k, s.ajz + k);
         }
         row::load(bi, velocity, i), row::load(bj, velocity, j), difference(i, j, s.vx + k, s.vy + k, s.vz + k);
+        if constexpr (strip<Law, View>::has_masses)
+            row::fourth_column(i, s.mass_i + k), row::fourth_column(j, s.mass_j + k);
         row::load(bi, spin, i), row::columns(i, s.ix + k, s.iy + k, s.iz + k);
         row::load(bj, spin, j), row::columns(j, s.jx + k, s.jy + k, s.jz + k);
     }
@@ -176,11 +181,16 @@ template <bool InPairs, bool Ahead, class Law, class View>
     const vec3 relative = cross(reach_i * spin_i + reach_j * spin_j, normal) - centres;
     const vec3 u = h * (relative - (0.5 * reflect * dot(relative, mid)) * mid);
     const double spin = 0.5 * h * dot(spin_i + spin_j, normal);
+    const vec3 rolled = h * (spin_i - spin_j);
     typename Law::history past = history;
-    const bool touching = overlap > 0.0;
-    const contacts::response<double> answer = law(
-        contacts::overlap<double>{normal.x, normal.y, normal.z, overlap, s.radius_i[k], s.radius_j[k]},
-        contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, normal), mid.x, mid.y, mid.z, reflect}, past, h);
+    const bool touching = overlap > -contacts::reach_of(law);
+    contacts::overlap<double> between{normal.x, normal.y, normal.z, overlap, 1.0 / s.radius_i[k], 1.0 / s.radius_j[k]};
+    if constexpr (strip<Law, View>::has_masses)
+        between.inverse_mass_i = s.mass_i[k], between.inverse_mass_j = s.mass_j[k];
+    const auto answer = law(between,
+                            contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, normal), mid.x, mid.y, mid.z,
+                                                     reflect, rolled.x, rolled.y, rolled.z},
+                            past, h);
     if constexpr (!std::is_empty_v<typename Law::history>) history = past;
     const vec3 force{touching ? answer.fx : 0.0, touching ? answer.fy : 0.0, touching ? answer.fz : 0.0};
     const vec3 turn = cross(normal, force);
@@ -188,6 +198,10 @@ template <bool InPairs, bool Ahead, class Law, class View>
     if constexpr (strip<Law, View>::has_arms) {
         moment_i += cross(vec3{s.aix[k], s.aiy[k], s.aiz[k]}, force);
         moment_j -= cross(vec3{s.ajx[k], s.ajy[k], s.ajz[k]}, force);
+    }
+    if constexpr (requires { answer.mx; }) {
+        const vec3 moment{touching ? answer.mx : 0.0, touching ? answer.my : 0.0, touching ? answer.mz : 0.0};
+        moment_i += moment, moment_j -= moment;
     }
     s.fx[k] = force.x, s.fy[k] = force.y, s.fz[k] = force.z;
     s.nx[k] = normal.x, s.ny[k] = normal.y, s.nz[k] = normal.z;

@@ -205,8 +205,9 @@ template <class S> void bring_balls_to_step(S& s) {
 // ---- sub-steps ------------------------------------------------------------------------------------------------------
 
 /// Step (s) that a piece of a cluster allows, with its own mass and external contacts; its balls are among those from
-/// place begin to end - 1 of all.
-template <class S> double fragment_limit(const S& s, std::int32_t piece, std::size_t begin, std::size_t end) {
+/// place begin to end - 1 of all. stiffness: of a typical contact (N/m).
+template <class S>
+double fragment_limit(const S& s, std::int32_t piece, std::size_t begin, std::size_t end, double stiffness) {
     const auto each_ball = [&](auto&& f) {
         for (std::size_t a = begin; a < end; ++a)
             if (s.broken.fragment[s.at(s.broken.balls[a])] == piece) f(s.broken.balls[a]);
@@ -226,13 +227,14 @@ template <class S> double fragment_limit(const S& s, std::int32_t piece, std::si
         tensor += (s.grains.ball_inertia(s.at(p)) + m * norm2(arm)) * mat3::identity() + (-m) * outer(arm, arm);
         add_stiffness(s, k, s.light_of, s.grains.ball(p), s.light, s.light_wall, centre);
     });
-    return std::min(typical_limit(s, mass),
+    return std::min(typical_limit(s, mass, stiffness),
                     k.time_step(mass, {tensor(0, 0), tensor(1, 1), tensor(2, 2)}, s.settings.safety));
 }
 /// Sub-steps of light bodies: the smallest limit over fragments. Follows estimate_step().
 template <class S> void estimate_light_steps(S& s) {
     if constexpr (S::breakable) {
         const std::vector<std::int32_t>& balls = s.broken.balls;
+        const double stiffness = balls.empty() ? 0.0 : typical_stiffness(s);
         double limit = s.dt;
         for (std::size_t k = 0, end = 0; k < balls.size(); k = end) {
             // the balls of one cluster are consecutive; pieces of it are looked at one by one
@@ -240,7 +242,7 @@ template <class S> void estimate_light_steps(S& s) {
             while (end < balls.size() && s.grains.mother[s.at(balls[end])] == g) ++end;
             for (std::size_t a = k; a < end; ++a)
                 if (s.broken.fragment[s.at(balls[a])] == balls[a])
-                    limit = std::min(limit, fragment_limit(s, balls[a], k, end));
+                    limit = std::min(limit, fragment_limit(s, balls[a], k, end, stiffness));
         }
         // the span is (old dt + dt) / 2, and dt grows by 2 % at most
         s.light_steps =

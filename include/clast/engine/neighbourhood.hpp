@@ -158,7 +158,7 @@ template <class S> void search(S& s) {
         for (std::size_t b = 0; b < n; ++b) s.near.widest = std::max(s.near.widest, 2.0 * s.grains.bounding_radius(b));
     }
     s.near.widths.choose_margin(counts(s), s.space.room(s.near.widest));
-    const double margin = s.near.widths.margin();
+    const double margin = s.near.widths.margin() + contacts::reach_of(s.settings.grain_contact);
     search_spheres spheres;
     spheres.all.reserve(2 * n); // with images
     for (std::size_t b = 0; b < n; ++b)
@@ -195,11 +195,12 @@ template <class S> void search(S& s) {
 template <class S> contact_list<typename S::history> chosen(const S& s, const pair_list& wide, std::size_t& open) {
     const execution& run = s.settings.run;
     const auto margin_of = [&](std::int32_t pebble) { return s.near.margins[s.grains.body_of(pebble)]; };
+    const double reach_of_law = contacts::reach_of(s.settings.grain_contact);
     const double strain_margin = S::space_type::has_images ? s.near.wall_margin : 0.0;
     const auto is_open = std::make_unique_for_overwrite<std::uint8_t[]>(wide.size());
     const std::vector<std::uint32_t> kept = run.where(wide.size(), [&](std::size_t k) {
         const pebble_pair& p = wide.pairs[k];
-        const double touch = s.radius(p.i) + s.radius(p.j);
+        const double touch = s.radius(p.i) + s.radius(p.j) + reach_of_law;
         const double reach = touch + margin_of(p.i) + margin_of(p.j) + strain_margin,
                      distance2 = norm2(s.apart(wide, k));
         is_open[k] = distance2 < touch * touch ? 0 : 1;

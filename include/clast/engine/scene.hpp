@@ -130,7 +130,8 @@ template <simulator_policies P> struct scene {
     double dt = 0.0;     ///< s
     int light_steps = 1; ///< sub-steps of light bodies in a step
     bool estimate_due = false;
-    double smallest_mass = std::numeric_limits<double>::infinity(); ///< of a body (kg)
+    double smallest_mass = 0.0;   ///< of a body (kg)
+    double smallest_radius = 0.0; ///< of a pebble (m)
 
     // ---- work space, written anew in every step ---------------------------------------------------------------------
     std::vector<boundaries::facet_load> loads;
@@ -151,6 +152,26 @@ template <simulator_policies P> struct scene {
     double radius(std::int32_t pebble) const { return grains.pebbles[at(pebble)].radius; }   ///< m
     auto body_of() const {
         return [this](std::int32_t pebble) { return grains.body_of(pebble); };
+    }
+    /// Two pebbles that overlap by `depth` (m), as a law sees them along their normal.
+    contacts::overlap<double> overlap_of(const pebble_pair& p, double depth) const {
+        return {0,
+                0,
+                1,
+                depth,
+                1.0 / radius(p.i),
+                1.0 / radius(p.j),
+                grains.inverse_mass_of(p.i),
+                grains.inverse_mass_of(p.j)};
+    }
+    /// Two of the smallest pebbles, of bodies of the smallest mass.
+    contacts::overlap<double> typical_overlap(double depth) const {
+        const double curvature = 1.0 / smallest_radius, inverse_mass = 1.0 / smallest_mass;
+        return {0, 0, 1, depth, curvature, curvature, inverse_mass, inverse_mass};
+    }
+    /// The same for a pebble at a wall.
+    contacts::overlap<double> overlap_at_wall(std::int32_t pebble, double depth) const {
+        return {0, 0, 1, depth, 1.0 / radius(pebble), 0.0, grains.inverse_mass_of(pebble), 0.0};
     }
     /// Order of the lists: by first body, second pebble, first pebble.
     auto pair_order() const {

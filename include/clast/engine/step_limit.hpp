@@ -16,23 +16,27 @@
 
 namespace clast::rooms {
 
-/// Step (s) that three typical contacts would allow a body of this mass (kg): an upper bound, because contacts come and
-/// go between two estimates.
-template <class S> double typical_limit(const S& s, double mass) {
-    const contacts::overlap<double> typical{0, 0, 1, 0, 1, 1};
+/// Stiffness (N/m) of a typical contact, a mean over directions.
+template <class S> double typical_stiffness(const S& s) {
+    const contacts::overlap<double> typical = s.typical_overlap(0.0);
     const auto& law = s.settings.grain_contact;
-    const double k = (law.normal_stiffness(typical) + 2.0 * law.shear_stiffness(typical)) / 3.0;
-    return s.settings.safety * std::sqrt(mass / (3.0 * k));
+    return (law.normal_stiffness(typical) + 2.0 * law.shear_stiffness(typical)) / 3.0;
+}
+/// Step (s) that three contacts of this stiffness (N/m) would allow a body of this mass (kg): an upper bound, because
+/// contacts come and go between two estimates.
+template <class S> double typical_limit(const S& s, double mass, double stiffness) {
+    return s.settings.safety * std::sqrt(mass / (3.0 * stiffness));
 }
 
 /// Whether the number of listed contacts is enough to see that a body allows a step (s): each adds at most its
 /// stiffness, at the farthest point of the body.
 template <class S> bool surely_allows(const S& s, std::size_t body, double step) {
-    if constexpr (requires { requires S::contact::constant_stiffness; }) {
+    using contact = typename S::contact;
+    if constexpr (contacts::is_of_constant_stiffness<contact>() && !contacts::resists_rotation<contact>) {
         const auto around = s.heavy_of->of(body);
         if (!around.empty() && around.back().row() >= s.heavy.size()) return false; // walls have laws of their own
         if (s.broken.has_balls() && !s.light_of.of(body).empty()) return false;
-        const contacts::overlap<double> any{0, 0, 1, 0, 1, 1};
+        const contacts::overlap<double> any = s.typical_overlap(0.0);
         const double shear = s.settings.grain_contact.shear_stiffness(any),
                      normal = std::max(s.settings.grain_contact.normal_stiffness(any), shear);
         const double turning = S::body_type::turns ? normal : shear; // of a sphere forces along n have no arm
@@ -55,17 +59,20 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
         if (r < list.size()) {
             const pebble_pair& pair = list.pairs[r];
             const vec3 d = s.apart(list, r);
-            const double ri = s.radius(pair.i), rj = s.radius(pair.j), distance = norm(d);
-            if (distance >= ri + rj) continue;
-            const contacts::overlap<double> o{0, 0, 1, ri + rj - distance, ri, rj};
+            const double distance = norm(d), depth = s.radius(pair.i) + s.radius(pair.j) - distance;
+            if (depth <= -contacts::reach_of(s.settings.grain_contact)) continue;
+            const contacts::overlap<double> o = s.overlap_of(pair, depth);
             const vec3 n = d / distance;
-            k.add(n, s.settings.grain_contact.normal_stiffness(o), s.settings.grain_contact.shear_stiffness(o),
+            const auto& law = s.settings.grain_contact;
+            k.add(n, law.normal_stiffness(o), law.shear_stiffness(o),
                   s.position(one.pebble) - centre + (one.side() * (s.radius(one.pebble) - 0.5 * o.depth)) * n);
+            if constexpr (contacts::resists_rotation<typename S::contact>)
+                k.add_rotation(n, law.twisting_stiffness(o), law.rolling_stiffness(o));
         } else {
             const boundaries::wall_row& w = wall[r - list.size()];
             const double rp = s.radius(w.pebble);
             for (const boundaries::touch& t : w.touch)
-                k.add(t.normal, law_at(s, t).normal_stiffness({0, 0, 1, t.depth, rp, rp}), 0.0,
+                k.add(t.normal, law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.depth)), 0.0,
                       s.position(w.pebble) - rp * t.normal - centre);
         }
     }
@@ -76,7 +83,7 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
 template <class S> void estimate_step(S& s, bool first) {
     // from the present positions, not from what an earlier step left behind: a restart must see the same
     touch_walls(s, s.heavy_wall), touch_walls(s, s.light_wall);
-    const double limit = std::min(typical_limit(s, s.smallest_mass), s.settings.largest_step);
+    const double limit = std::min(typical_limit(s, s.smallest_mass, typical_stiffness(s)), s.settings.largest_step);
     s.index_heavy();
     const auto faster = [&](std::size_t b, double so_far) {
         if (!s.grains.is_swept(b) || surely_allows(s, b, -so_far)) return so_far;

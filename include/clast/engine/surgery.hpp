@@ -66,7 +66,8 @@ template <class S> void release(S& s, const birth_certificate& m) {
         const std::size_t ball = s.grains.ball(p);
         const vec3 x = s.position(p);
         const vec3 v = s.grains.motion[g].v + cross(spin, x - s.grains.motion[g].x);
-        s.grains.motion[ball] = {x - b.lag * v, v, spin}; // the motion of a ball trails t_n by the lag
+        s.grains.motion[ball] = {x - b.lag * v, v, spin,
+                                 1.0 / s.grains.ball_mass(s.at(p))}; // the motion of a ball trails t_n by the lag
         s.grains.owner[s.at(p)] = static_cast<std::int32_t>(ball);
         b.bonded[s.at(p)] = 1;
         b.balls.push_back(p);

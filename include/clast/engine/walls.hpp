@@ -17,13 +17,12 @@ namespace clast::rooms {
 /// Contacts and forces of one pebble at the surface, `ahead` seconds from now; h: span since the last evaluation (s).
 template <class S> void evaluate_wall(const S& s, boundaries::wall_row& w, double h, double ahead) {
     using contact = typename S::contact;
-    const double r = s.radius(w.pebble);
-    const boundaries::touches touching = s.boundary.touch(s.position(w.pebble), r, ahead);
+    const boundaries::touches touching = s.boundary.touch(s.position(w.pebble), s.radius(w.pebble), ahead);
     w.force = {}, w.lateral = 0.0, w.platen = {}, w.touch.size = 0;
     if (touching.size == 0) return;
     // facets are frictionless: the law sees no tangential motion and keeps no history
     const auto push = [&](const contact& law, double depth, double approach) {
-        const contacts::overlap<double> o{0, 0, 1, depth, r, r};
+        const contacts::overlap<double> o = s.overlap_at_wall(w.pebble, depth);
         const contacts::motion<double> m{0, 0, 0, 0, approach};
         if constexpr (requires { law.normal_force(o, m); })
             return law.normal_force(o, m);
@@ -74,14 +73,13 @@ void add_loads(const S& s, const std::vector<boundaries::wall_row>& wall, double
     for (const boundaries::wall_row& w : wall) {
         if (w.touch.size == 0) continue;
         const double way = norm(boundaries::lateral_push(w.touch));
-        const double r = s.radius(w.pebble);
         boundaries::sharing_matrix sharing{};
         int lateral = 0;
         if (couplings != nullptr && w.touch.size > 1) sharing = boundaries::sharing(w.touch);
         std::array<const boundaries::touch*, 3> seen{};
         for (const boundaries::touch& t : w.touch) {
             const double f = w.share(t);
-            const double k = law_at(s, t).normal_stiffness({0, 0, 1, t.at_platen() ? t.depth : way, r, r});
+            const double k = law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.at_platen() ? t.depth : way));
             if (t.at_platen() || couplings == nullptr || w.touch.size == 1) {
                 loads[s.at(t.facet)].add(t, share * f, share * k);
                 continue;

@@ -231,7 +231,7 @@ template <triaxial_policies P> class triaxial_test {
         m.largest_gap = m.largest_step = std::max(2.0 * m.smallest_radius, std::min(s.grain.diameter, 0.25 * m.radius));
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
-        m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, r, r});
+        m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, 1.0 / r, 0.0});
         if constexpr (std::same_as<typename P::contact, contacts::linear>) {
             m.platen_stiffness = s.materials.platen.normal_stiffness;
             m.tile_stiffness = s.materials.membrane.normal_stiffness;

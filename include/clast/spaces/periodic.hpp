@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <clast/contacts/concepts.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/spaces/concepts.hpp>
@@ -84,7 +85,7 @@ class periodic {
     /// Throws run_error where a grain would touch two images of another.
     template <class Scene> void gather(Scene& s, search_spheres& spheres) const {
         bring_back(s, spheres);
-        const double reach = s.near.widest + s.near.widths.margin();
+        const double reach = s.near.widest + s.near.widths.margin() + contacts::reach_of(s.settings.grain_contact);
         if (!(std::min({edges_.x, edges_.y, edges_.z}) > 2.0 * reach))
             throw run_error({"the periodic cell is too small for its grains",
                              fmt::format("edges {:.4g} x {:.4g} x {:.4g} m", edges_.x, edges_.y, edges_.z),
@@ -144,9 +145,8 @@ class periodic {
             const auto& row = s.heavy.rows[k];
             if (row.depth == 0.0) return;
             const auto& p = s.heavy.pairs[k];
-            const double ri = s.radius(p.i), rj = s.radius(p.j);
             const vec3 branch = s.branch_of(row, p);
-            const double kn = s.settings.grain_contact.normal_stiffness({0, 0, 1, row.depth, ri, rj});
+            const double kn = s.settings.grain_contact.normal_stiffness(s.overlap_of(p, row.depth));
             for (int a = 0; a < 3; ++a) {
                 stress[a] -= row.force[a] * branch[a];
                 modulus[a] += kn * branch[a] * branch[a] * row.normal[a] * row.normal[a];

@@ -80,7 +80,7 @@ struct spheres {
             s.add({at(k % n), at(k / n % n), at(k / n / n)}, uniform(random, 0.4, 0.5) * diameter);
             s.pebbles.back().v = 0.1 * direction(random);
         }
-        const contacts::linear_dashpot law{.kn = 1e6, .ks = 5e5, .mu = 0.3, .gamma = 2000.0, .density = 2700.0};
+        const contacts::linear_dashpot law{.kn = 1e6, .ks = 5e5, .mu = 0.3, .gamma = 2000.0};
         engine<policies> e({.grain_contact = law,
                             .platen_contact = law,
                             .lateral_contact = law,
