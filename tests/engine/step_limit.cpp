@@ -63,3 +63,58 @@ TEST_CASE("a count of contacts that surely allows a step never hides a stiffer b
         }
     CHECK(rooms::surely_allows(s, 0, 1e-7));
 }
+
+namespace {
+/// Hertz without friction, which begins without any stiffness.
+struct hertz {
+    struct history {};
+    double modulus = 0.0;
+    contacts::response<double> operator()(const contacts::overlap<double>& o, const contacts::motion<double>&, history&,
+                                          double) const {
+        if (o.depth <= 0.0) return {};
+        const double f = 4.0 / 3.0 * modulus * std::sqrt(o.reduced_radius() * o.depth) * o.depth;
+        return {-f * o.nx, -f * o.ny, -f * o.nz, 0.0};
+    }
+    double stored(const contacts::overlap<double>& o, const history&) const {
+        return o.depth > 0.0 ? 8.0 / 15.0 * modulus * std::sqrt(o.reduced_radius() * o.depth) * o.depth * o.depth : 0.0;
+    }
+    double normal_stiffness(const contacts::overlap<double>& o) const {
+        return 2.0 * modulus * std::sqrt(o.reduced_radius() * std::max(o.depth, 0.0));
+    }
+    double shear_stiffness(const contacts::overlap<double>&) const { return 0.0; }
+};
+struct of_hertz : spheres_alone {
+    using contact = hertz;
+};
+} // namespace
+
+TEST_CASE("a law that begins without stiffness gets a step that its first collision allows, and keeps its energy") {
+    // Hertz: the deepest overlap of a central collision is (15 m v^2 / (16 E R^(1/2)))^(2/5) with the reduced m
+    const double modulus = 1e9, m = 2650.0 * sphere_volume(r), v = 2.0; // each (m/s)
+    const double deepest = std::pow(15.0 * 0.5 * m * 4.0 * v * v / (16.0 * modulus * std::sqrt(0.5 * r)), 0.4);
+    bodies::spheres s;
+    s.add({-1.5 * r, 0, 0}, r), s.add({1.5 * r, 0, 0}, r);
+    s.pebbles[0].v = {v, 0, 0}, s.pebbles[1].v = {-v, 0, 0};
+    engine<of_hertz> e({.grain_contact = {modulus},
+                        .platen_contact = {},
+                        .lateral_contact = {},
+                        .breakage = {},
+                        .replacement = {},
+                        .damping = 0.0,
+                        .safety = 0.2,
+                        .largest_step = 1.0},
+                       s, spaces::open{});
+    const double stiffest = 2.0 * modulus * std::sqrt(0.5 * r * deepest);
+    CHECK(e.dt() <= 0.2 * std::sqrt(m / stiffest)); // from the first step on
+    CHECK(e.dt() >= 0.05 * std::sqrt(m / stiffest));
+    const double before = e.kinetic_energy();
+    double found = 0.0;
+    while (e.grains.pebbles[0].v.x > -0.5 * v || found == 0.0) {
+        e.step();
+        e.each_contact([&](const force_row& one, const pebble_pair&) { found = std::max(found, one.depth); });
+        REQUIRE(e.time() < 1.0);
+    }
+    while (e.elastic_energy() > 0.0) e.step();
+    CHECK(found == Approx(deepest).epsilon(0.02));
+    CHECK(e.kinetic_energy() == Approx(before).epsilon(1e-3));
+}

@@ -37,6 +37,8 @@ template <simulator_policies P> struct engine_settings {
     double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
     double skin = 0.0;          ///< m: where the skin of the lists starts; 0: from the size of the grains
     double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
+    /// Of the smallest radius: least overlap at which a law is asked for its stiffness where nothing touches.
+    double expected_overlap = 1e-4;
     execution run = execution(1);
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
 };

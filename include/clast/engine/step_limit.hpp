@@ -16,9 +16,27 @@
 
 namespace clast::rooms {
 
+/// Overlap (m) at which a law is asked for its stiffness where no contact says more: what the smallest of pebbles would
+/// reach if the fastest two bodies met head-on, by the energy that the law stores; at least a share of its radius
+/// (engine_settings::expected_overlap), because a law may begin without any stiffness.
+template <class S> double expected_overlap(const S& s) {
+    const double least = s.settings.expected_overlap * s.smallest_radius;
+    if constexpr (contacts::is_of_constant_stiffness<typename S::contact>()) return least;
+    const vec3 flow = s.space.rates();
+    double fastest = s.settings.run.max(s.grains.body_count(), s.boundary.fastest(), [&](std::size_t b) {
+        return s.grains.is_swept(b) ? s.grains.surface_speed(b, flow) : 0.0;
+    });
+    fastest = s.broken.largest(s.grains, s.settings.run, fastest,
+                               [](std::int32_t, const body_motion& m) { return norm(m.v); });
+    const double energy = s.smallest_mass * fastest * fastest; // m/2 at twice the speed
+    double depth = least;
+    while (s.settings.grain_contact.stored(s.typical_overlap(depth), {}) < energy && depth < s.smallest_radius)
+        depth *= 1.25;
+    return depth;
+}
 /// Stiffness (N/m) of a typical contact, a mean over directions.
 template <class S> double typical_stiffness(const S& s) {
-    const contacts::overlap<double> typical = s.typical_overlap(0.0);
+    const contacts::overlap<double> typical = s.typical_overlap(expected_overlap(s));
     const auto& law = s.settings.grain_contact;
     return (law.normal_stiffness(typical) + 2.0 * law.shear_stiffness(typical)) / 3.0;
 }

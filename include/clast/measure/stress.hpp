@@ -61,6 +61,7 @@ struct contact_state {
     double mean_contact_force = 0.0; ///< N, over touching contacts, facets included
     double coordination = 0.0;       ///< touching neighbours per body
     double max_overlap_over_r = 0.0; ///< of the smaller pebble
+    double mean_overlap = 0.0;       ///< of touching pebbles (m)
     std::int64_t contacts = 0;       ///< touching pebble pairs
     std::int32_t deepest_i = -1;     ///< pebbles of the deepest overlap
     std::int32_t deepest_j = -1;     ///< -1: a facet
@@ -85,6 +86,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         net[a] += row.force, net[b] -= row.force;
         sum[a] += size, sum[b] += size;
         forces += size, ++count, ++c.contacts;
+        c.mean_overlap += row.depth;
         if (a != b) neighbours.emplace_back(std::min(a, b), std::max(a, b));
         const double over = row.depth / std::min(s.pebbles[at(pair.i)].radius, s.pebbles[at(pair.j)].radius);
         if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = pair.i, c.deepest_j = pair.j;
@@ -111,6 +113,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     c.unbalanced_ratio = total > 0.0 ? largest / (total / static_cast<double>(bodies)) : 0.0;
+    if (c.contacts > 0) c.mean_overlap /= static_cast<double>(c.contacts);
     c.mean_contact_force = count > 0 ? forces / static_cast<double>(count) : 0.0;
     c.coordination = bodies > 0 ? 2.0 * static_cast<double>(neighbours.size()) / static_cast<double>(bodies) : 0.0;
     return c;

@@ -147,7 +147,8 @@ template <triaxial_policies P> class runner {
         s.max_overlap_over_r = c.max_overlap_over_r;
         s.coordination = c.coordination;
         s.confining_error = error_count_ > 0 ? error_sum_ / static_cast<double>(error_count_) : 0.0;
-        const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, 0, 1, 1});
+        const double curvature = 2.0 / plan.grain_diameter;
+        const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, c.mean_overlap, curvature, curvature});
         s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
         const engine_totals& t = sim.totals();
         s.replaced = t.replaced;
