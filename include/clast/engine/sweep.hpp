@@ -62,8 +62,9 @@ template <class S> std::size_t evaluate_heavy(S& s, index_range rows, std::size_
 }
 
 /// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and wall
-/// rows that come next.
-template <class S> load_sum complete_load(S& s, std::size_t body, std::size_t& shared, std::size_t& wall) {
+/// rows that come next. Inlined by force: it has few instructions, and is called for every body in every step.
+template <class S>
+[[gnu::always_inline]] inline load_sum complete_load(S& s, std::size_t body, std::size_t& shared, std::size_t& wall) {
     load_sum& sum = s.acting[body];
     for (; shared < s.heavy.shared && s.grains.body_of(s.heavy.pairs[shared].i) == body; ++shared)
         s.shared_load[shared].add_to_i(sum);
