@@ -128,3 +128,19 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     lost.motion[7].v.x = std::numeric_limits<double>::quiet_NaN();
     CHECK(move(lost, bodies) == margin_use::not_finite);
 }
+
+TEST_CASE("a spin that is set has its angular momentum, and about an axis whose inverse inertia is 0 none turns") {
+    bodies::clumps s;
+    s.shapes = {make_shape("pair", {{{-0.01, 0, 0}, 0.01}, {{0.01, 0, 0}, 0.01}})};
+    s.add(0, {}, unit(quaternion{1.0, 0.2, -0.5, 0.4}));
+    const vec3 w{3.0, -2.0, 1.0};
+    s.set_velocity(0, {1.0, 2.0, 2.0});
+    s.set_spin(0, w);
+    CHECK(s.spin(0) == w);
+    CHECK(norm(spin_of(s.turning[0].q, s.turning[0].l, s.inverse_inertia(s.grains[0])) - w) < 1e-14);
+    const double moving = 0.5 * s.body_mass(0) * 9.0;
+    CHECK(s.kinetic_energy(0) == Approx(moving + 0.5 * dot(s.turning[0].l, w)));
+    s.of_shape[0].inverse_inertia = {};
+    CHECK(s.kinetic_energy(0) == Approx(moving));
+    CHECK(s.body_inertia(0).z == std::numeric_limits<double>::infinity());
+}

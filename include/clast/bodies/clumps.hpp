@@ -131,13 +131,29 @@ struct clumps {
         return static_cast<std::size_t>(mother[static_cast<std::size_t>(pebble)]);
     }
     const vec3& centre(std::size_t g) const { return motion[g].x; }
+    const vec3& velocity(std::size_t g) const { return motion[g].v; } ///< of the centre (m/s)
+    const vec3& spin(std::size_t g) const { return motion[g].w; }     ///< rad/s
+    void set_velocity(std::size_t g, const vec3& v) { motion[g].v = v; }
+    /// Sets the angular momentum with it.
+    void set_spin(std::size_t g, const vec3& w) {
+        const vec3 i = density * shape_of(grains[g]).inertia_per_density;
+        motion[g].w = w;
+        turning[g].l = rotate(turning[g].q, scale(i, rotate_back(turning[g].q, w)));
+    }
     double bounding_radius(std::size_t g) const { return shape_of(grains[g]).circumscribed_radius; }
     index_range pebbles_of(std::size_t g) const {
         const auto first = static_cast<std::size_t>(grains[g].first);
         return {first, first + shape_of(grains[g]).pebbles.size()};
     }
-    double body_mass(std::size_t g) const { return mass_of(grains[g]); }                                 ///< kg
-    vec3 body_inertia(std::size_t g) const { return density * shape_of(grains[g]).inertia_per_density; } ///< kg m^2
+    double body_mass(std::size_t g) const { return mass_of(grains[g]); } ///< kg
+    /// kg m^2; infinite about axes whose inverse is 0, about which a clump does not turn.
+    vec3 body_inertia(std::size_t g) const {
+        vec3 i = density * shape_of(grains[g]).inertia_per_density;
+        const vec3& inverse = inverse_inertia(grains[g]);
+        for (int a = 0; a < 3; ++a)
+            if (inverse[a] == 0.0) i[a] = std::numeric_limits<double>::infinity();
+        return i;
+    }
     mat3 body_axes(std::size_t g) const { return matrix(turning[g].q); }
     double kinetic_energy(std::size_t g) const {
         return 0.5 * mass_of(grains[g]) * norm2(motion[g].v) +

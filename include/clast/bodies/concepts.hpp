@@ -73,6 +73,7 @@ concept swept = std::movable<S> &&
     { c.inverse_mass_of(std::int32_t{}) } -> std::same_as<double>;
     c.view();
     { c.centre(b) } -> std::convertible_to<vec3>;
+    { c.velocity(b) } -> std::convertible_to<vec3>;
     { c.bounding_radius(b) } -> std::same_as<double>;
     { c.pebbles_of(b) } -> std::same_as<index_range>;
     { c.body_mass(b) } -> std::same_as<double>;

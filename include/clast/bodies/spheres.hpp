@@ -57,6 +57,10 @@ struct spheres {
     const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
     double inverse_mass_of(std::int32_t pebble) const { return pebbles[body_of(pebble)].inverse_mass; }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
+    const vec3& velocity(std::size_t b) const { return pebbles[b].v; } ///< m/s
+    const vec3& spin(std::size_t b) const { return pebbles[b].w; }     ///< rad/s
+    void set_velocity(std::size_t b, const vec3& v) { pebbles[b].v = v; }
+    void set_spin(std::size_t b, const vec3& w) { pebbles[b].w = w; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
     double body_mass(std::size_t b) const { return 1.0 / pebbles[b].inverse_mass; }
@@ -65,9 +69,11 @@ struct spheres {
         return {i, i, i};
     }
     mat3 body_axes(std::size_t) const { return mat3::identity(); }
+    /// A sphere whose inverse_inertia is 0 does not turn: it has no energy of rotation.
     double kinetic_energy(std::size_t b) const {
         const pebble_motion& p = pebbles[b];
-        return 0.5 * (norm2(p.v) / p.inverse_mass + norm2(p.w) / p.inverse_inertia);
+        const double turning = p.inverse_inertia > 0.0 ? norm2(p.w) / p.inverse_inertia : 0.0;
+        return 0.5 * (norm2(p.v) / p.inverse_mass + turning);
     }
     reference refer(std::size_t b) const { return {pebbles[b].x}; }
     double moved(std::size_t b, const reference& since, const vec3& stretch) const {
