@@ -15,6 +15,8 @@
 #include <clast/criteria/none.hpp>
 #include <clast/criteria/one_of.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/fields/gravity.hpp>
+#include <clast/fields/none.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/protocol/triaxial.hpp>
 #include <clast/replacements/modified.hpp>

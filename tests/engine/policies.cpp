@@ -6,6 +6,7 @@
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/criteria/one_of.hpp>
+#include <clast/fields/gravity.hpp>
 #include <clast/searches/brute_force.hpp>
 #include <clast/spaces/periodic.hpp>
 
@@ -47,6 +48,12 @@ struct wrong_space : triaxial_policies_default {
 struct clusters_in_a_cell : triaxial_policies_default {
     using space = spaces::periodic;
 };
+struct wrong_field : triaxial_policies_default {
+    using field = spaces::open;
+};
+struct heavy : triaxial_policies_default {
+    using field = fields::gravity;
+};
 struct incomplete {
     using contact = contacts::linear;
 };
@@ -56,6 +63,7 @@ static_assert(!simulator_policies<wrong_contact> && !simulator_policies<wrong_bo
 static_assert(!simulator_policies<wrong_search> && !simulator_policies<wrong_criterion>);
 static_assert(!simulator_policies<wrong_replacement> && !simulator_policies<incomplete> &&
               !simulator_policies<wrong_space> && !simulator_policies<clusters_in_a_cell> && !simulator_policies<int>);
+static_assert(simulator_policies<heavy> && !simulator_policies<wrong_field>);
 } // namespace
 
 TEST_CASE("a bundle is the paper's by default, and what is overridden changes nothing else") {

@@ -122,7 +122,7 @@ template <class P> double residual(const engine<P>& e) {
     const engine_totals& t = e.totals();
     const body_losses lost = e.losses();
     return t.boundary_work + t.initial_energy - e.kinetic_energy() - e.elastic_energy() - lost.friction - lost.damping -
-           t.bond_dissipation;
+           t.bond_dissipation - e.potential_energy();
 }
 
 /// Two tumbling clumps that hit each other off centre, far from any wall.

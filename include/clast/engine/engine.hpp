@@ -91,8 +91,8 @@ template <simulator_policies P> class engine : private scene<P> {
     void set_friction(double mu) {
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
-    /// To be called after velocities were set by hand, so that the audit knows of their energy.
-    void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy(); }
+    /// To be called after velocities or the field were set by hand, so that the audit knows of their energy.
+    void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy() + potential_energy(); }
     /// Broken bonds since the last call, in the order in which they broke.
     std::vector<fracture_event> take_events() { return this->broken.take_events(); }
     /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).
@@ -111,8 +111,11 @@ template <simulator_policies P> class engine : private scene<P> {
     using scene_type::branch_of;
     using scene_type::centre_of;
     using scene_type::each_contact;
+    using scene_type::each_outer_force;
     using scene_type::each_wall_row;
+    using scene_type::has_outer_forces;
     double kinetic_energy() const { return rooms::kinetic_energy(state()); }
+    double potential_energy() const { return rooms::potential_energy(state()); } ///< in the field (J)
     double elastic_energy() const { return rooms::elastic_energy(state()); }
     body_losses losses() const { return rooms::losses(state()); }
 
@@ -146,9 +149,11 @@ template <simulator_policies P> class engine : private scene<P> {
         s.smallest_radius = smallest_radius();
         s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         rooms::sort_pebbles(s);
-        s.totals.initial_energy = kinetic_energy();
+        count_initial_energy();
         rooms::make_lists(s);
+        const double then = potential_energy();
         estimate(true);
+        s.totals.initial_energy += potential_energy() - then; // it is that of half a step ago, and there is a step now
     }
     double smallest_radius() const {
         double least = std::numeric_limits<double>::infinity();

@@ -13,6 +13,8 @@
 #include <clast/criteria/concepts.hpp>
 #include <clast/criteria/nominal_force.hpp>
 #include <clast/criteria/none.hpp>
+#include <clast/fields/concepts.hpp>
+#include <clast/fields/none.hpp>
 #include <clast/replacements/concepts.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
@@ -33,6 +35,7 @@ struct triaxial_policies_default {
     using search = searches::cell_grid;
     using body = bodies::clumps; // or bodies::spheres, which never break
     using space = spaces::open;
+    using field = fields::none; // or fields::gravity
 };
 
 /// A complete bundle, as an engine uses it. A policy that is missing or does not satisfy its own concept is named by
@@ -42,7 +45,8 @@ concept simulator_policies = contacts::contact_law<typename P::contact> &&
                              replacements::replacement<typename P::replacement> &&
                              criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
                              searches::search<typename P::search> && bodies::swept<typename P::body> &&
-                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::makes_bonds) &&
+                             spaces::space<typename P::space> && fields::field<typename P::field> &&
+                             (P::body::turns || !P::replacement::makes_bonds) &&
                              !(P::space::has_images && P::replacement::makes_bonds);
 
 } // namespace clast

@@ -23,6 +23,7 @@
 #include <clast/engine/kernel.hpp>
 #include <clast/engine/list_widths.hpp>
 #include <clast/engine/policies.hpp>
+#include <clast/fields/concepts.hpp>
 
 namespace clast {
 
@@ -41,13 +42,14 @@ template <simulator_policies P> struct engine_settings {
     double expected_overlap = 1e-4;
     execution run = execution(1);
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
+    [[no_unique_address]] typename P::field field{}; ///< on every body; like damping not part of a checkpoint
 };
 
 /// Totals that an audit needs (J), and counters.
 struct engine_totals {
-    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall and moving images
+    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall, and moving images
     double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
-    double initial_energy = 0.0;   ///< brought in with initial velocities
+    double initial_energy = 0.0;   ///< brought in with initial velocities and places in a field
     std::int64_t steps = 0;
     std::int64_t rebuilds = 0; ///< searches for neighbours
     std::int64_t renewals = 0; ///< of the lists, from what a search has found
@@ -107,6 +109,7 @@ template <simulator_policies P> struct scene {
     using body_type = typename P::body;
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
+    using field_type = typename P::field;
     using wall_row = boundaries::wall_row;
     static constexpr bool breakable = P::replacement::makes_bonds;
     static constexpr bool has_criterion = P::breakage::evaluated;
@@ -214,6 +217,29 @@ template <simulator_policies P> struct scene {
     vec3 centre_of(std::int32_t pebble) const {
         const std::size_t body = grains.body_of(pebble);
         return body < grains.body_count() ? grains.centre(body) : position(pebble);
+    }
+    /// A body of the sweep as a field saw it `ago` seconds before.
+    fields::body_at seen(std::size_t body, double ago = 0.0) const {
+        const vec3& v = grains.velocity(body);
+        return {grains.body_mass(body), grains.centre(body) - ago * v, v, totals.time - ago};
+    }
+    /// Of a body of the sweep in the field (J). Velocities are those of the middle of the last step: so is this.
+    double potential_energy(std::size_t body) const {
+        if constexpr (field_type::acts) return settings.field.potential(seen(body, 0.5 * dt));
+        return 0.0;
+    }
+    static constexpr bool has_outer_forces = field_type::acts;
+    /// f(piece, force) for what acts on bodies and fragments from outside (N): the field.
+    template <class F> void each_outer_force(F&& f) const {
+        for (std::size_t b = 0; has_outer_forces && b < grains.body_count(); ++b) {
+            if (!grains.is_swept(b)) continue;
+            if constexpr (field_type::acts) f(b, settings.field.force(seen(b)));
+        }
+        if constexpr (field_type::acts && breakable)
+            broken.each_ball(grains, [&](std::int32_t p, const body_motion& m) {
+                f(broken.piece_of(grains, p),
+                  settings.field.force({grains.ball_mass(at(p)), m.x, m.v, totals.time - broken.lag}));
+            });
     }
     /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
     /// faces of a periodic cell, too.

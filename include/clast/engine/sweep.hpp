@@ -76,6 +76,7 @@ template <class S>
         if constexpr (S::body_type::turns) load.moment += cross(s.position(w.pebble) - s.grains.centre(body), w.force);
     }
     s.broken.add_halo_load(body, load);
+    if constexpr (S::field_type::acts) load.force += s.settings.field.force(s.seen(body)); // before it is damped
     return load;
 }
 template <class S> void move_ready(S& s, range_work& work, const vec3& stretch) {

@@ -39,6 +39,7 @@ struct sample {
     std::int64_t broken_shear = 0;     ///< bonds broken in shear so far
     std::int64_t escaped = 0;          ///< grains outside the boundary (a run stops at the first)
     double kinetic_energy = 0.0;       ///< (J)
+    double potential_energy = 0.0;     ///< of bodies in the field (J); no column
     double elastic_energy = 0.0;       ///< contacts, facets and bonds (J)
     double boundary_work = 0.0;        ///< work done on the specimen by platens and membrane so far (J)
     double friction_dissipation = 0.0; ///< (J)

@@ -155,18 +155,17 @@ template <triaxial_policies P> class runner {
         s.broken_tension = t.broken_tension;
         s.broken_shear = t.broken_shear;
         s.kinetic_energy = sim.kinetic_energy();
+        s.potential_energy = sim.potential_energy();
         s.elastic_energy = sim.elastic_energy();
         const body_losses lost = sim.losses();
         s.boundary_work = t.boundary_work;
         s.friction_dissipation = lost.friction;
         s.damping_dissipation = lost.damping;
         s.bond_dissipation = t.bond_dissipation;
-        const double residual = t.boundary_work + t.initial_energy - s.kinetic_energy - s.elastic_energy -
-                                lost.friction - lost.damping - t.bond_dissipation;
         // of the energy that went through the specimen in this stage: work, or what was lost where no wall works
         const double lost_here = lost.friction + lost.damping - stage_losses_;
         const double work = std::max(std::abs(t.boundary_work - stage_work_), lost_here);
-        s.energy_residual = work > 0.0 ? (residual - stage_residual_) / work : 0.0;
+        s.energy_residual = work > 0.0 ? (unexplained(s) - stage_residual_) / work : 0.0;
         s.steps = t.steps;
         s.dt = sim.dt();
         s.wall_time = wall_time_;
@@ -205,6 +204,11 @@ template <triaxial_policies P> class runner {
   private:
     const stage& current() const { return plan.stages[stage_]; }
     double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
+    /// What the audit cannot explain in a state just measured (J).
+    double unexplained(const sample& s) const {
+        return s.boundary_work + sim.totals().initial_energy - s.kinetic_energy - s.elastic_energy -
+               s.friction_dissipation - s.damping_dissipation - s.bond_dissipation - s.potential_energy;
+    }
     double closing_speed() const { return sim.boundary.velocity(0) + sim.boundary.velocity(1); }
 
     /// Begins the stage that is due, if none is running, and leaves out those that are not needed.
@@ -240,8 +244,7 @@ template <triaxial_policies P> class runner {
         const sample now = measure();
         stage_work_ = now.boundary_work;
         stage_losses_ = now.friction_dissipation + now.damping_dissipation;
-        stage_residual_ = now.boundary_work + sim.totals().initial_energy - now.kinetic_energy - now.elastic_energy -
-                          now.friction_dissipation - now.damping_dissipation - now.bond_dissipation;
+        stage_residual_ = unexplained(now);
         smoothed_p_ = std::max(now.p, 0.01 * plan.confining);
         row_start_ = axial_strain();
         next_row_ = 1;
