@@ -9,6 +9,8 @@
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
+#include <clast/constraints/held.hpp>
+#include <clast/constraints/none.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/contacts/rolling.hpp>

@@ -2,6 +2,7 @@
 // The order of one step. What each part of it does is in a room of its own beside this header; scene.hpp is what all of
 // them share.
 //
+//   constraints set what they prescribe                                                      outside.hpp
 //   light bodies (balls and bonded clusters) pass through the span around t_n in sub-steps    light_bodies.hpp
 //   walls touch heavy bodies, servo                                                          walls.hpp
 //   sweep: heavy contacts, sums, motion; criteria look at clumps before these move           sweep.hpp, grain_load.hpp
@@ -23,6 +24,7 @@
 #include <clast/engine/audit.hpp>
 #include <clast/engine/light_bodies.hpp>
 #include <clast/engine/neighbourhood.hpp>
+#include <clast/engine/outside.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/step_limit.hpp>
 #include <clast/engine/surgery.hpp>
@@ -48,6 +50,7 @@ template <simulator_policies P> class engine : private scene<P> {
     // ---- what there is, and what may be changed between steps -------------------------------------------------------
     using scene_type::boundary; ///< to exchange it, set_boundary()
     using scene_type::breakage_on;
+    using scene_type::constraint;
     using scene_type::drives;
     using scene_type::grains;
     using scene_type::settings;
@@ -174,6 +177,7 @@ template <simulator_policies P> class engine : private scene<P> {
     void one_step(bool keep_rows, bool last_of_many) {
         scene_type& s = own();
         if (s.near.must_search || s.near.must_renew) rooms::renew_lists(s);
+        rooms::begin_constraint(s);
         if (s.estimate_due || s.totals.steps % step_interval == 0) estimate(false);
         rooms::advance_light_bodies(s);
         rooms::evaluate_walls(s, s.heavy_wall, s.dt, 0.0);
@@ -183,6 +187,7 @@ template <simulator_policies P> class engine : private scene<P> {
         if (criterion_looks) s.index_heavy();
         const margin_use use =
             rooms::sweep(s, keep_rows || space_looks || criterion_looks, rooms::marks_critical(s, criterion_looks));
+        rooms::end_constraint(s);
         space.end_sweep(s, space_looks);
         rooms::advance_walls(s);
         rooms::bring_balls_to_step(s);

@@ -8,6 +8,8 @@
 #include <clast/bodies/concepts.hpp>
 #include <clast/boundaries/concepts.hpp>
 #include <clast/boundaries/tiles.hpp>
+#include <clast/constraints/concepts.hpp>
+#include <clast/constraints/none.hpp>
 #include <clast/contacts/concepts.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/criteria/concepts.hpp>
@@ -35,7 +37,8 @@ struct triaxial_policies_default {
     using search = searches::cell_grid;
     using body = bodies::clumps; // or bodies::spheres, which never break
     using space = spaces::open;
-    using field = fields::none; // or fields::gravity
+    using field = fields::none;           // or fields::gravity
+    using constraint = constraints::none; // or constraints::held
 };
 
 /// A complete bundle, as an engine uses it. A policy that is missing or does not satisfy its own concept is named by
@@ -46,6 +49,7 @@ concept simulator_policies = contacts::contact_law<typename P::contact> &&
                              criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
                              searches::search<typename P::search> && bodies::swept<typename P::body> &&
                              spaces::space<typename P::space> && fields::field<typename P::field> &&
+                             constraints::constraint<typename P::constraint, typename P::body> &&
                              (P::body::turns || !P::replacement::makes_bonds) &&
                              !(P::space::has_images && P::replacement::makes_bonds);
 

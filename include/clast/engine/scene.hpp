@@ -47,7 +47,7 @@ template <simulator_policies P> struct engine_settings {
 
 /// Totals that an audit needs (J), and counters.
 struct engine_totals {
-    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall, and moving images
+    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall, moving images and constraints
     double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
     double initial_energy = 0.0;   ///< brought in with initial velocities and places in a field
     std::int64_t steps = 0;
@@ -110,6 +110,7 @@ template <simulator_policies P> struct scene {
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
     using field_type = typename P::field;
+    using constraint_type = typename P::constraint;
     using wall_row = boundaries::wall_row;
     static constexpr bool breakable = P::replacement::makes_bonds;
     static constexpr bool has_criterion = P::breakage::evaluated;
@@ -118,6 +119,7 @@ template <simulator_policies P> struct scene {
     body_type grains;
     boundary_type boundary;
     [[no_unique_address]] space_type space;
+    [[no_unique_address]] constraint_type constraint{}; ///< what is prescribed of single bodies
     boundaries::drives drives;
     bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
 
@@ -228,12 +230,14 @@ template <simulator_policies P> struct scene {
         if constexpr (field_type::acts) return settings.field.potential(seen(body, 0.5 * dt));
         return 0.0;
     }
-    static constexpr bool has_outer_forces = field_type::acts;
-    /// f(piece, force) for what acts on bodies and fragments from outside (N): the field.
+    static constexpr bool has_outer_forces = field_type::acts || constraint_type::acts;
+    /// f(piece, force) for what acts on bodies and fragments from outside (N): field, pushes and reactions of
+    /// constraints in the last step.
     template <class F> void each_outer_force(F&& f) const {
         for (std::size_t b = 0; has_outer_forces && b < grains.body_count(); ++b) {
             if (!grains.is_swept(b)) continue;
             if constexpr (field_type::acts) f(b, settings.field.force(seen(b)));
+            if constexpr (constraint_type::acts) f(b, constraint.outer_force(b));
         }
         if constexpr (field_type::acts && breakable)
             broken.each_ball(grains, [&](std::int32_t p, const body_motion& m) {
@@ -258,6 +262,7 @@ template <simulator_policies P> struct scene {
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
         broken.archive(a);
+        constraint.archive(a);
     }
 };
 

@@ -77,6 +77,7 @@ template <class S>
     }
     s.broken.add_halo_load(body, load);
     if constexpr (S::field_type::acts) load.force += s.settings.field.force(s.seen(body)); // before it is damped
+    if constexpr (S::constraint_type::acts) s.constraint.act(body, load);
     return load;
 }
 template <class S> void move_ready(S& s, range_work& work, const vec3& stretch) {
