@@ -32,11 +32,23 @@ class observer {
     virtual ~observer() = default;
     virtual void on_row(const sample&) {}                         ///< one row of the series
     virtual void on_events(const std::vector<fracture_event>&) {} ///< bonds broken since the last call
+    /// A stage begins, before its first row, or has ended, after its last.
     virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
     virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
     /// Between two steps, with all events reported: the place to save a checkpoint.
     virtual void on_pause() {}
     virtual bool stop_requested() { return false; } ///< true: run() returns at the next pause
+};
+
+/// An observer that looks at the scene itself: bodies, contacts, loads. It can change nothing. All pebbles stand where
+/// they are, also those that touch nothing. What it finds out at rows or steps it keeps itself.
+template <triaxial_policies P> class scene_observer : public observer {
+  public:
+    /// With every row, after on_row.
+    virtual void on_scene(const scene<P>&, const sample&) {}
+    /// Steps between two calls of on_step, counted from the beginning of the run, stopped and resumed or not; 0: none.
+    virtual std::int64_t every_steps() const { return 0; }
+    virtual void on_step(const scene<P>&) {} ///< after a step whose number is a multiple of every_steps()
 };
 
 /// Sizes and rates of a test. SI units.
@@ -83,12 +95,18 @@ template <triaxial_policies P> class runner {
         const auto clock = [&] {
             wall_time_ = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         };
+        scene_watch_ = dynamic_cast<scene_observer<P>*>(&watch);
+        const std::int64_t every = scene_watch_ != nullptr ? scene_watch_->every_steps() : 0;
         begin_due(watch);
         while (stage_ < plan.stages.size()) {
             sim.step();
             ++stage_steps_;
             stage_time_ += sim.dt();
             confining_now();
+            if (every > 0 && sim.totals().steps % every == 0) {
+                sim.place_all();
+                scene_watch_->on_step(sim.state());
+            }
             if (row_due()) {
                 clock();
                 report(watch);
@@ -219,8 +237,8 @@ template <triaxial_policies P> class runner {
                 continue;
             }
             begin_stage();
-            report(watch);
             watch.on_stage(current().name, true);
+            report(watch);
         }
     }
 
@@ -398,7 +416,12 @@ template <triaxial_policies P> class runner {
 
     void report(observer& watch) {
         flush_events(watch);
-        watch.on_row(measure());
+        const sample row = measure();
+        watch.on_row(row);
+        if (scene_watch_ != nullptr) {
+            sim.place_all();
+            scene_watch_->on_scene(sim.state(), row);
+        }
         error_sum_ = 0.0, error_count_ = 0;
         const double done = std::abs(axial_strain() - row_start_);
         next_row_ = 1 + static_cast<std::int64_t>(done / plan.row_strain);
@@ -435,6 +458,7 @@ template <triaxial_policies P> class runner {
     }
 
     std::function<boundary_type(const boundary_type&)> make_membrane_;
+    scene_observer<P>* scene_watch_ = nullptr; ///< the observer of run(), if it looks at scenes
     std::size_t stage_ = 0;
     bool begun_ = false;
     bool ended_by_itself_ = false;
