@@ -243,7 +243,7 @@ struct looker : scene_observer<rigid> {
             if (norm(s.grains.pebbles[p].x - m.x - rotate(q, own.offset)) > 1e-12) FAIL("pebble " << p);
         }
     }
-    std::int64_t every_steps() const override { return 70; }
+    std::int64_t every_steps() const override { return 83; }
     void on_step(const scene<rigid>& s) override { steps.push_back(s.totals.steps); }
     bool stop_requested() override { return ++pauses % 3 == 0; }
 };
@@ -258,8 +258,8 @@ TEST_CASE("an observer of scenes sees each at its row and every so many steps, a
     CHECK(watch.scenes == watch.rows);
     CHECK(watch.rows.size() >= 4);
     CHECK(watch.forces.back() > 0.0);
-    REQUIRE(watch.steps.size() == static_cast<std::size_t>(test.sim().totals().steps / 70));
-    for (std::size_t k = 0; k < watch.steps.size(); ++k) CHECK(watch.steps[k] == 70 * static_cast<std::int64_t>(k + 1));
+    REQUIRE(watch.steps.size() == static_cast<std::size_t>(test.sim().totals().steps / 83));
+    for (std::size_t k = 0; k < watch.steps.size(); ++k) CHECK(watch.steps[k] == 83 * static_cast<std::int64_t>(k + 1));
 
     looker first, second; // another goes on from a checkpoint
     REQUIRE(!stopped.run(first));
