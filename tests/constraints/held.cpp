@@ -179,7 +179,7 @@ TEST_CASE("a force and a moment from outside move a free body, and their work is
     CHECK(e.grains.velocity(0) == v);
 }
 
-TEST_CASE("a prescribed spin drives a sphere's neighbour by friction; of a clump it is refused") {
+TEST_CASE("a prescribed spin drives a sphere's neighbour by friction, and of a clump it is refused") {
     bodies::spheres s = row(1);
     s.add({1.999 * r, 0, 0}, r);
     engine<balls> e = scene_of<balls>(s, 0.2);
