@@ -75,13 +75,15 @@ class box {
         return l[(a + 1) % 3] * l[(a + 2) % 3];
     }
 
-    /// `d.platens` drives the walls normal to z, `d.lateral` the four others, each pair on its own load and area. A
-    /// lateral velocity is that of each wall, inward.
+    /// `d.platens` drives the walls normal to z, `d.lateral` those normal to x, `d.lateral_y` (`d.lateral` where there
+    /// is none) those normal to y, each pair on its own load and area. A lateral velocity is that of each wall, inward.
     void control(std::span<const facet_load> loads, const drives& d, double dt, std::span<const coupling> = {}) {
         check(d.platens, "drives.platens");
         check(d.lateral, "drives.lateral");
+        if (d.lateral_y) check(*d.lateral_y, "drives.lateral_y");
+        const std::array<const drive*, 3> of{&d.lateral, d.lateral_y ? &*d.lateral_y : &d.lateral, &d.platens};
         for (int a = 0; a < 3; ++a) {
-            const drive& mine = a == 2 ? d.platens : d.lateral;
+            const drive& mine = *of[static_cast<std::size_t>(a)];
             const facet_load& one = loads[static_cast<std::size_t>(lower(a))];
             const facet_load& two = loads[static_cast<std::size_t>(lower(a) + 1)];
             double& v = speed_[static_cast<std::size_t>(a)];

@@ -155,8 +155,9 @@ template <moving_unit Unit> class faceted_cylinder {
 
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap
-    /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
-    /// `couplings` name facets that share pebbles, so that their servos act together (control/servo_group.hpp).
+    /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense, lateral_y
+    /// included. `couplings` name facets that share pebbles, so that their servos act together
+    /// (control/servo_group.hpp).
     void control(std::span<const facet_load> loads, const drives& d, double dt,
                  std::span<const coupling> couplings = {});
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
@@ -415,13 +416,16 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
                          "the load moves the boundary faster than grains can resist, or no grain is left to resist",
                          "load more slowly, lower the speed limit of the servo, or use more rings"});
     };
-    if (!(height() >= 2.0 * set_.smallest_radius)) stop("The platens met", "platens");
+    // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
+    // failed anyway. Whether grains can resist is for those to say who know the grains.
+    const double least = 0.5 * set_.smallest_radius;
+    if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
     for (std::size_t j = 0; j < apothem_.size(); ++j)
-        if (!(apothem_[j] >= 2.0 * set_.smallest_radius && apothem_[j] <= set_.largest_radius))
+        if (!(apothem_[j] >= least && apothem_[j] <= set_.largest_radius))
             stop("The membrane is torn",
                  fmt::format("tile {} of ring {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m)",
-                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j],
-                             2.0 * set_.smallest_radius, set_.largest_radius));
+                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least,
+                             set_.largest_radius));
 }
 
 template <moving_unit Unit>
@@ -446,6 +450,9 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
                                      std::span<const coupling> couplings) {
     check(d.platens, "drives.platens");
     check(d.lateral, "drives.lateral");
+    if (d.lateral_y)
+        throw input_error("drives.lateral_y", "a drive of its own", "none, at a wall around the axis",
+                          "Take boundaries::box for three driven axes.");
     using mode = drive::mode;
     // Both platens move alike, on the mean of their forces. Ledges of the wall may take up a
     // difference between them; servos of their own would then chase each other along the axis, with all rings, for

@@ -228,9 +228,7 @@ template <simulator_policies P> struct scene {
     /// before it reads any; events must have been taken.
     template <class A> void archive(A& a) {
         a(grains, boundary, space, settings.grain_contact, breakage_on, totals, dt, light_steps, estimate_due);
-        a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
-        a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
+        a(drives, near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
         broken.archive(a);
     }
 };
