@@ -80,6 +80,11 @@ struct clumps {
         return v;
     }
 
+    /// Adds a shape, and returns its number.
+    std::int32_t kind_of(const shape& s) {
+        shapes.push_back(s);
+        return static_cast<std::int32_t>(shapes.size() - 1);
+    }
     /// Adds a clump at rest and returns its grain id.
     std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
         const auto id = static_cast<std::int32_t>(grains.size());
@@ -305,7 +310,7 @@ struct clumps {
     }
 };
 
-static_assert(swept<clumps>);
+static_assert(specimen<clumps>);
 
 } // namespace bodies
 } // namespace clast

@@ -8,8 +8,11 @@
 #include <span>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include <clast/bodies/concepts.hpp>
 #include <clast/bodies/contact_list.hpp>
+#include <clast/core/errors.hpp>
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/grains/shape.hpp>
@@ -40,6 +43,16 @@ struct spheres {
         losses.push_back({});
         return static_cast<std::int32_t>(pebbles.size() - 1);
     }
+    /// Radius of the grains of a shape (m). Throws input_error for one that is not a single sphere.
+    static double kind_of(const shape& s) {
+        if (s.pebbles.size() != 1)
+            throw input_error("grain", fmt::format("'{}', of {} pebbles", s.name, s.pebbles.size()),
+                              "one pebble, where bodies are spheres",
+                              "Take shapes::sphere(0.02), or bodies::clumps for the bundle's body.");
+        return s.pebbles.front().radius;
+    }
+    /// As for clumps, where a radius is the kind; a sphere has no orientation to keep.
+    std::int32_t add(double radius, const vec3& centre, const quaternion&) { return add(centre, radius); }
     std::size_t pebble_count() const { return pebbles.size(); }
     std::size_t grain_count() const { return pebbles.size(); }
     double solid_volume() const {
@@ -132,6 +145,6 @@ struct spheres {
     }
 };
 
-static_assert(swept<spheres>);
+static_assert(specimen<spheres>);
 
 } // namespace clast::bodies
