@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <clast/bodies/spheres.hpp>
+#include <clast/boundaries/box.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 
 #include <catch.hpp>
@@ -58,7 +60,8 @@ TEST_CASE("a setup that makes no sense is refused by the name of its member, wit
     names(refusal([](setup_type& s) { s.confining = 0_Pa; }), "confining");
     names(refusal([](setup_type& s) { s.tiles_per_ring = 40; }), "tiles_per_ring"); // 5 mm wide, pebbles 9 mm
     names(refusal([](setup_type& s) { s.tiles_per_ring = 5; }), "tiles_per_ring");
-    names(refusal([](setup_type& s) { s.rings = 36; }), "rings"); // 2 mm high
+    names(refusal([](setup_type& s) { s.rings = 36; }), "rings");                // 2 mm high
+    names(refusal([](setup_type& s) { s.rings = 36; }), "Take 8 rings at most"); // of 9 mm
     names(refusal([](setup_type& s) { s.diameter = 40_mm; }), "diameter");
     names(refusal([](setup_type& s) { s.height = 40_mm; }), "height");
     names(refusal([](setup_type& s) { s.porosity = 1.0; }), "porosity");
@@ -86,6 +89,51 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
     CHECK(test.sim().settings.grain_contact.mu == 0.3);
     CHECK(test.sim().settings.lateral_contact.kn == Approx(5.8e6 * 3.2e6 / 9.0e6));
     CHECK(test.sim().settings.lateral_contact.mu == 0.0);
+}
+
+TEST_CASE("a box counts its porosity in its own section, and has no use for rings and tiles") {
+    using in_box = scenes::unbreakable<boundaries::box>;
+    const triaxial_setup<in_box> s{.grain = shapes::tetrahedron_4(0.02),
+                                   .diameter = 66_mm,
+                                   .height = 75_mm,
+                                   .confining = 200_kPa,
+                                   .breakage = {},
+                                   .replacement = {},
+                                   .porosity = 0.62,
+                                   .rings = 1000,
+                                   .tiles_per_ring = 1};
+    const triaxial_test<in_box> test(s, protocol::preparation(66_mm, 75_mm));
+    const double volume = 0.066 * 0.066 * 0.075;
+    CHECK(test.sim().grains.solid_volume() / volume == Approx(0.38).margin(0.5 * s.grain.volume / volume));
+    CHECK(test.sim().boundary.volume() == Approx(1.8 * 1.8 * 1.8 * volume));
+}
+
+TEST_CASE("a test of spheres takes a single sphere as its grain, and says so") {
+    struct of_spheres : rigid {
+        using body = bodies::spheres;
+    };
+    triaxial_setup<of_spheres> s{.grain = shapes::tetrahedron_4(0.02),
+                                 .diameter = 66_mm,
+                                 .height = 75_mm,
+                                 .confining = 200_kPa,
+                                 .breakage = {},
+                                 .replacement = {},
+                                 .porosity = 0.62,
+                                 .rings = 3,
+                                 .tiles_per_ring = 8};
+    std::string text;
+    try {
+        const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
+    } catch (const input_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("grain") == 0);
+    CHECK(text.find("'4B', of 4 pebbles") != std::string::npos);
+    s.grain = shapes::sphere(0.02);
+    const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
+    const bodies::spheres& grains = test.sim().grains;
+    REQUIRE(grains.body_count() > 10);
+    for (std::size_t b = 0; b < grains.body_count(); ++b) CHECK(dot(grains.pebbles[b].v, grains.centre(b)) < 0.0);
 }
 
 TEST_CASE("the stages of the paper come in their order, the membrane with the consolidation, strain from shear on") {

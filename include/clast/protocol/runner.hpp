@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -65,9 +64,10 @@ template <triaxial_policies P> class runner {
     engine_type& sim;
     test_plan plan;
 
-    /// `membrane` makes the boundary of the test at the target size from present platen positions.
-    runner(engine_type& e, test_plan p, std::function<boundary_type(const boundary_type&)> membrane)
-        : sim(e), plan(std::move(p)), make_membrane_(std::move(membrane)) {
+    /// `membrane`: of the boundary that takes the vessel's place in a stage with `membrane_here`, at the size that the
+    /// vessel has then.
+    runner(engine_type& e, test_plan p, const boundaries::vessel_settings& membrane)
+        : sim(e), plan(std::move(p)), membrane_(membrane) {
         if (plan.stages.empty())
             throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
         friction_ = sim.friction();
@@ -176,18 +176,17 @@ template <triaxial_policies P> class runner {
     /// Pebbles for pictures; displacement counts from the reference state (0 before it).
     std::vector<pebble_view> pebbles() {
         sim.place_all();
-        const bodies::clumps& s = sim.grains;
+        const auto& s = sim.grains;
         std::vector<pebble_view> out(s.pebble_count());
         for (std::size_t p = 0; p < out.size(); ++p) {
-            const auto g = static_cast<std::size_t>(s.mother[p]);
-            const auto owner = static_cast<std::size_t>(s.owner[p]);
+            const auto pebble = static_cast<std::int32_t>(p);
+            const std::size_t g = s.group_of(pebble);
             pebble_view& v = out[p];
             v.position = s.pebbles[p].x;
             v.radius = s.pebbles[p].radius;
-            v.grain = s.mother[p];
-            v.fragment = s.grains[g].first;
-            v.velocity = s.motion[owner].v;
-            if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.pebbles[p].x - s.motion[owner].x);
+            v.grain = static_cast<std::int32_t>(g);
+            v.fragment = static_cast<std::int32_t>(s.pebbles_of(g).begin);
+            v.velocity = s.velocity_of(pebble);
             if (!reference_.empty()) v.displacement = s.pebbles[p].x - reference_[p];
             sim.breakage().describe(s, p, v);
         }
@@ -226,7 +225,7 @@ template <triaxial_policies P> class runner {
         ended_by_itself_ = false;
         stage_steps_ = 0, stage_time_ = 0.0, friction_try_ = 0;
         error_sum_ = 0.0, error_count_ = 0;
-        if (s.membrane_here) sim.set_boundary(make_membrane_(sim.boundary));
+        if (s.membrane_here) sim.set_boundary(sim.boundary.resized(membrane_));
         if (s.reference_here) {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
@@ -409,16 +408,17 @@ template <triaxial_policies P> class runner {
 
     /// Stops the run where the specimen is no longer one.
     void check_specimen() {
-        const bodies::clumps& s = sim.grains;
+        const auto& s = sim.grains;
         for (std::size_t p = 0; p < s.pebble_count(); ++p) {
-            const auto owner = static_cast<std::size_t>(s.owner[p]);
-            // clumps are looked at by their centre, balls by their own
-            const bool clump = owner < s.grain_count();
-            if (clump && static_cast<std::int32_t>(p) != s.grains[owner].first) continue;
-            if (!sim.boundary.outside(s.motion[owner].x, s.pebbles[p].radius)) continue;
-            const vec3 x = s.motion[owner].x;
+            const auto pebble = static_cast<std::int32_t>(p);
+            // whole grains are looked at by their centre, balls by their own
+            const std::size_t owner = s.body_of(pebble);
+            const bool whole = owner < s.body_count();
+            if (whole && p != s.pebbles_of(owner).begin) continue;
+            const vec3 x = sim.centre_of(pebble);
+            if (!sim.boundary.outside(x, s.pebbles[p].radius)) continue;
             throw run_error(
-                {fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
+                {fmt::format("grain {} escaped ({} of it)", s.group_of(pebble), whole ? "all" : "a fragment"),
                  fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
                  when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
                  "use more rings or tiles, a lower stress or a smaller inertial number"});
@@ -431,7 +431,7 @@ template <triaxial_policies P> class runner {
                              "lower the stress or raise the contact stiffness"});
     }
 
-    std::function<boundary_type(const boundary_type&)> make_membrane_;
+    boundaries::vessel_settings membrane_;
     std::size_t stage_ = 0;
     bool begun_ = false;
     bool ended_by_itself_ = false;
