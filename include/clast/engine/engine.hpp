@@ -21,6 +21,7 @@
 #include <clast/boundaries/none.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/engine/audit.hpp>
+#include <clast/engine/check_policies.hpp>
 #include <clast/engine/light_bodies.hpp>
 #include <clast/engine/neighbourhood.hpp>
 #include <clast/engine/scene.hpp>
@@ -31,8 +32,8 @@
 
 namespace clast {
 
-/// Bodies, a boundary and the policies that move them. Construct complete; then call step().
-template <simulator_policies P> class engine : private scene<P> {
+/// Bodies, a boundary and the policies that move them (simulator_policies). Construct complete; then call step().
+template <class P> class engine : private scene<P> {
   public:
     using scene_type = scene<P>;
     using typename scene_type::body_type;
@@ -186,6 +187,15 @@ template <simulator_policies P> class engine : private scene<P> {
         ++s.totals.steps;
         rooms::check_margins(s, use);
     }
+};
+
+/// For a bundle that does not fit (simulator_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!simulator_policies<P>) class engine<P> : public engine<repaired_policies<P>> {
+    static_assert(sizeof(check_policies<P>) > 0);
+
+  public:
+    template <class Body, class... Others> engine(engine_settings<P>, Body, Others...);
 };
 
 } // namespace clast

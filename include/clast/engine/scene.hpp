@@ -27,7 +27,7 @@
 namespace clast {
 
 /// Parameters of an engine that are values, not types. SI units.
-template <simulator_policies P> struct engine_settings {
+template <class P> struct engine_settings {
     typename P::contact grain_contact;   ///< pebble against pebble
     typename P::contact platen_contact;  ///< pebble against platen
     typename P::contact lateral_contact; ///< pebble against the lateral wall

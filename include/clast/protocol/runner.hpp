@@ -55,7 +55,7 @@ struct test_plan {
 };
 
 /// Runs the stages of a plan on an engine. State is complete and archived: saving, or not, changes no bit.
-template <triaxial_policies P> class runner {
+template <class P> class runner {
   public:
     using engine_type = engine<P>;
     using boundary_type = typename P::boundary;
@@ -450,6 +450,15 @@ template <triaxial_policies P> class runner {
     double friction_ = 0.0, solid_volume_ = 0.0;
     stage_view view_;
     measure::contact_state deepest_;
+};
+
+/// For a bundle that does not fit (triaxial_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!triaxial_policies<P>) class runner<P> : public runner<repaired_test_policies<P>> {
+    static_assert(sizeof(check_test_policies<P>) > 0);
+
+  public:
+    template <class Engine> runner(Engine&, test_plan, const boundaries::vessel_settings&);
 };
 
 } // namespace clast

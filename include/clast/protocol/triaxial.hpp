@@ -39,7 +39,7 @@ struct table_1 {
 
 /// Contacts of a law that Table 1 knows nothing of, given one by one. Walls are frictionless: at them the law sees no
 /// tangential motion and no history. Its normal stiffness under a small overlap must be positive, for the servo.
-template <contacts::contact_law L> struct contacts_of_law {
+template <class L> struct contacts_of_law {
     L grain;                 ///< pebble against pebble
     L platen;                ///< pebble against platen
     L membrane;              ///< pebble against the lateral wall
@@ -51,11 +51,11 @@ template <contacts::contact_law L> struct contacts_of_law {
 };
 
 /// What the setup of a test asks for its contacts: Table 1 for `contacts::linear`, else the three laws.
-template <contacts::contact_law L>
+template <class L>
 using materials_of = std::conditional_t<std::same_as<L, contacts::linear>, table_1, contacts_of_law<L>>;
 
 /// What a triaxial test is made of. Members without a default must be given, or the program does not compile.
-template <triaxial_policies P> struct triaxial_setup {
+template <class P> struct triaxial_setup {
     shape grain;                         ///< template of all grains
     quantities::length diameter;         ///< of the specimen: of the circle that the membrane's polygon circumscribes
     quantities::length height;           ///< of the specimen as packed
@@ -150,7 +150,7 @@ inline std::vector<stage> triaxial_compression(quantities::length diameter, quan
 } // namespace protocol
 
 /// Specimen, boundary, engine and runner of one test, ready to run.
-template <triaxial_policies P> class triaxial_test {
+template <class P> class triaxial_test {
   public:
     using boundary_type = typename P::boundary;
     using runner_type = runner<P>;
@@ -264,6 +264,15 @@ template <triaxial_policies P> class triaxial_test {
     triaxial_setup<P> setup_;
     engine<P> sim_;
     runner_type run_;
+};
+
+/// For a bundle that does not fit (triaxial_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!triaxial_policies<P>) class triaxial_test<P> : public triaxial_test<repaired_test_policies<P>> {
+    static_assert(sizeof(check_test_policies<P>) > 0);
+
+  public:
+    triaxial_test(triaxial_setup<P>, std::vector<stage>);
 };
 
 } // namespace clast

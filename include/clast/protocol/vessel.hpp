@@ -4,11 +4,13 @@
 
 #include <concepts>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <clast/boundaries/concepts.hpp>
 #include <clast/boundaries/vessel_settings.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/engine/check_policies.hpp>
 #include <clast/engine/policies.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -60,5 +62,93 @@ namespace clast {
 template <class P>
 concept triaxial_policies =
     simulator_policies<P> && protocol::vessel<typename P::boundary> && bodies::specimen<typename P::body>;
+
+namespace policy_checks {
+
+template <class B> struct vessel {
+    using loads = std::span<const boundaries::facet_load>;
+    using sizes = boundaries::vessel_settings;
+    static constexpr int missing = first_missing(
+        protocol::vessel<B>, requires(const sizes& s) { B::made(s); },
+        requires(const B& b, const sizes& s) { b.resized(s); }, requires(const B& b) { b.radius(); },
+        requires(const B& b) { b.bottom(); }, requires(const B& b) { b.height(); },
+        requires(const B& b) { b.volume(); }, requires(const B& b, vec3 x) { b.holds(x, 1.0); },
+        requires(const B& b, vec3 x) { b.outside(x, 1.0); }, requires(const B& b, loads l) { b.axial_stress(l); },
+        requires(const B& b, loads l) { b.lateral_stress(l); },
+        requires(const B& b, loads l) { b.confining_error(l, 1.0); }, requires(const B& b, loads l) { b.view(l); });
+    static_assert(missing != 1, "policy boundary of the bundle is no vessel of a test, it lacks `static B "
+                                "made(vessel_settings)` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 2, "policy boundary of the bundle is no vessel of a test, it lacks "
+                                "`resized(vessel_settings) const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 3, "policy boundary of the bundle is no vessel of a test, it lacks `radius() const` "
+                                "(clast/protocol/vessel.hpp)");
+    static_assert(missing != 4, "policy boundary of the bundle is no vessel of a test, it lacks `bottom() const` "
+                                "(clast/protocol/vessel.hpp)");
+    static_assert(missing != 5, "policy boundary of the bundle is no vessel of a test, it lacks `height() const` "
+                                "(clast/protocol/vessel.hpp)");
+    static_assert(missing != 6, "policy boundary of the bundle is no vessel of a test, it lacks `volume() const` "
+                                "(clast/protocol/vessel.hpp)");
+    static_assert(missing != 7, "policy boundary of the bundle is no vessel of a test, it lacks `holds(x, radius) "
+                                "const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 8, "policy boundary of the bundle is no vessel of a test, it lacks `outside(x, radius) "
+                                "const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 9, "policy boundary of the bundle is no vessel of a test, it lacks `axial_stress(loads) "
+                                "const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 10, "policy boundary of the bundle is no vessel of a test, it lacks "
+                                 "`lateral_stress(loads) const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 11, "policy boundary of the bundle is no vessel of a test, it lacks "
+                                 "`confining_error(loads, sigma) const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 12, "policy boundary of the bundle is no vessel of a test, it lacks `view(loads) const` "
+                                 "(clast/protocol/vessel.hpp)");
+    static_assert(missing != 13, "policy boundary of the bundle is no vessel of a test, it answers with other types "
+                                 "(clast/protocol/vessel.hpp)");
+};
+
+template <class S> struct specimen {
+    static constexpr int missing = first_missing(
+        bodies::specimen<S>, std::default_initializable<S>, requires(S& s) { s.density = 1.0; },
+        requires(S& s, const shape& grain) { s.kind_of(grain); },
+        requires(S& s, const shape& grain) { s.add(s.kind_of(grain), vec3{}, quaternion{}); },
+        requires(const S& c) { c.grain_count(); }, requires(const S& c) { c.solid_volume(); });
+    static_assert(missing != 1, "policy body of the bundle is no specimen of a test, it lacks a default constructor "
+                                "(clast/bodies/concepts.hpp)");
+    static_assert(missing != 2, "policy body of the bundle is no specimen of a test, it lacks `density` "
+                                "(clast/bodies/concepts.hpp)");
+    static_assert(missing != 3, "policy body of the bundle is no specimen of a test, it lacks `kind_of(shape)` "
+                                "(clast/bodies/concepts.hpp)");
+    static_assert(missing != 4, "policy body of the bundle is no specimen of a test, it lacks `add(kind, centre, "
+                                "orientation)` (clast/bodies/concepts.hpp)");
+    static_assert(missing != 5, "policy body of the bundle is no specimen of a test, it lacks `grain_count() const` "
+                                "(clast/bodies/concepts.hpp)");
+    static_assert(missing != 6, "policy body of the bundle is no specimen of a test, it lacks `solid_volume() const` "
+                                "(clast/bodies/concepts.hpp)");
+    static_assert(missing != 7, "policy body of the bundle is no specimen of a test, it answers with other types "
+                                "(clast/bodies/concepts.hpp)");
+};
+
+/// What a test asks beyond an engine.
+template <class P> struct first_wrong_of_test : first_wrong_of<P> {};
+template <simulator_policies P>
+struct first_wrong_of_test<P> : first_wrong<check<protocol::vessel<typename P::boundary>, vessel<typename P::boundary>>,
+                                            check<bodies::specimen<typename P::body>, specimen<typename P::body>>> {};
+
+/// A bundle that simulates, with the default in place of what is no vessel or no specimen.
+template <class P> struct repaired_for_test : P {
+    using standard = triaxial_policies_default;
+    using boundary =
+        std::conditional_t<protocol::vessel<typename P::boundary>, typename P::boundary, standard::boundary>;
+    using body = std::conditional_t<bodies::specimen<typename P::body>, typename P::body, standard::body>;
+};
+
+} // namespace policy_checks
+
+/// Compiles for a bundle that a triaxial test can be made of (triaxial_policies); else its first error names the family
+/// and what is missing.
+template <class P> using check_test_policies = typename policy_checks::first_wrong_of_test<P>::type;
+
+/// A bundle to go on with where one does not fit.
+template <class P>
+using repaired_test_policies =
+    policy_checks::repaired_for_test<std::conditional_t<simulator_policies<P>, P, repaired_policies<P>>>;
 
 } // namespace clast
