@@ -153,6 +153,50 @@ TEST_CASE("the stages of the paper come in their order, the membrane with the co
     CHECK(protocol::unloading(2_MPa, 10_kPa).axial.value < 0.0);
 }
 
+TEST_CASE("stages take sizes, stress and inertial number from the setup, or are compared with it") {
+    const auto taken = [](std::vector<stage> stages) -> std::vector<stage> {
+        return triaxial_test<rigid>(good(), std::move(stages)).protocol().plan.stages;
+    };
+    std::vector<stage> s = protocol::triaxial_compression(1_percent);
+    s.push_back(protocol::unloading(5_kPa));
+    const std::vector<stage> from = taken(s);
+    std::vector<stage> given = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent, 5e-3);
+    given.push_back(protocol::unloading(200_kPa, 5_kPa, 5e-3));
+    REQUIRE(from.size() == given.size());
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        CHECK(from[k].name == given[k].name);
+        CHECK(from[k].axial.how == given[k].axial.how);
+        CHECK(from[k].axial.value == given[k].axial.value);
+        CHECK(from[k].lateral.value == given[k].lateral.value);
+        CHECK_FALSE(from[k].axial.of_setup);
+    }
+    const auto refused = [&](const std::vector<stage>& stages) -> std::string {
+        try {
+            (void)taken(stages);
+        } catch (const input_error& e) {
+            return e.what();
+        }
+        return {};
+    };
+    const auto names = [](const std::string& text, const char* what, const char* values) {
+        INFO(text);
+        CHECK(text.find(what) == 0);
+        CHECK(text.find(values) != std::string::npos);
+    };
+    names(refused(protocol::triaxial_compression(140_mm, 75_mm, 200_kPa, 1_percent)),
+          "diameter of the setup, and of stage 'compact'", "66 and 140 mm");
+    names(refused(protocol::triaxial_compression(66_mm, 150_mm, 200_kPa, 1_percent)),
+          "height of the setup, and of stage 'compact'", "75 and 150 mm");
+    names(refused(protocol::triaxial_compression(66_mm, 75_mm, 5_MPa, 1_percent)),
+          "confining of the setup, and of stage 'shear'", "200 and 5000 kPa");
+    // several on the way are well, and a preparation alone
+    std::vector<stage> more = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent);
+    more.insert(more.begin(), protocol::preparation(80_mm, 90_mm)[0]);
+    more.push_back(protocol::shear(300_kPa, 2_percent));
+    CHECK(refused(more).empty());
+    CHECK(refused(protocol::preparation(66_mm, 75_mm)).empty());
+}
+
 TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at 1 kPa, at its size") {
     setup_type s = good();
     triaxial_test<rigid> test(s, protocol::preparation(s.diameter, s.height));

@@ -70,6 +70,7 @@ template <class P> class runner {
         : sim(e), plan(std::move(p)), membrane_(membrane) {
         if (plan.stages.empty())
             throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
+        for (stage& s : plan.stages) take_from_setup(s.axial, plan.height), take_from_setup(s.lateral, plan.radius);
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         reference_height_ = sim.boundary.height();
@@ -202,6 +203,16 @@ template <class P> class runner {
     }
 
   private:
+    /// Makes a drive that counts in parts of the setup one of its own.
+    void take_from_setup(axis_drive& a, double size) const {
+        if (!a.of_setup) return;
+        using kind = axis_drive::kind;
+        a.value *= a.how == kind::reach      ? size
+                   : a.how == kind::stress   ? plan.confining
+                   : a.how == kind::inertial ? plan.inertial_number
+                                             : 1.0;
+        a.of_setup = false;
+    }
     const stage& current() const { return plan.stages[stage_]; }
     double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
     double closing_speed() const { return sim.boundary.velocity(0) + sim.boundary.velocity(1); }

@@ -78,15 +78,17 @@ template <class P> struct triaxial_setup {
 /// Stages of the paper's protocol (section 2.3), as data. Take them, change them, or write your own.
 namespace protocol {
 
+// Sizes, stress and inertial number are those of the setup, unless they are given: a test compares them then.
+
 /// Cloud to specimen: compaction by moving walls and grains, then relaxation at fixed walls until the unbalanced ratio
 /// is below 0.1 % and p' below 1 kPa in three spheres. A specimen that stays loaded tries lower frictions, and as a
 /// last resort servo control to 1 kPa.
-inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
+inline std::vector<stage> preparation() {
     using namespace literals;
     std::vector<stage> s;
     s.push_back({.name = "compact",
-                 .axial = drive_by::size(height),
-                 .lateral = drive_by::size(0.5 * diameter),
+                 .axial = drive_by::size_of_setup(),
+                 .lateral = drive_by::size_of_setup(),
                  .end = until::size_reached(),
                  .breakage = false,
                  .if_stuck = "The specimen is denser than its grains can be packed: raise the porosity."});
@@ -108,36 +110,67 @@ inline std::vector<stage> preparation(quantities::length diameter, quantities::l
     return s;
 }
 
+inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
+    std::vector<stage> s = preparation();
+    s.front().axial = drive_by::size(height);
+    s.front().lateral = drive_by::size(0.5 * diameter);
+    return s;
+}
+
 /// Servo control of membrane and platens to an isotropic stress until the error is below 0.1 % and the specimen rests.
-inline stage consolidation(quantities::stress confining) {
+inline stage consolidation() {
     return {.name = "consolidate",
-            .axial = drive_by::stress(confining),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::stress_of_setup(),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::stresses_within(1e-3) && until::unbalanced_below(1e-3),
             .membrane_here = true,
             .if_stuck = "Grains may go on breaking or rearranging: lower the stress, or allow more steps."};
 }
 
+inline stage consolidation(quantities::stress confining) {
+    stage s = consolidation();
+    s.axial = s.lateral = drive_by::stress(confining);
+    return s;
+}
+
 /// Shear by both platens at a limited inertial number, at constant lateral stress.
-inline stage shear(quantities::stress confining, quantities::ratio strain, double inertial_number = 1e-4) {
+inline stage shear(quantities::ratio strain) {
     return {.name = "shear",
-            .axial = drive_by::inertial_number(inertial_number),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::inertial_number_of_setup(),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::axial_strain(strain),
             .most_steps = 100'000'000,
             .reference_here = true};
 }
+inline stage shear(quantities::stress confining, quantities::ratio strain, double inertial_number = 1e-4) {
+    stage s = shear(strain);
+    s.axial = drive_by::inertial_number(inertial_number);
+    s.lateral = drive_by::stress(confining);
+    return s;
+}
 
 /// Extension from the end of shear until q has fallen to the given value.
-inline stage unloading(quantities::stress confining, quantities::stress q, double inertial_number = 1e-4) {
+inline stage unloading(quantities::stress q) {
     return {.name = "unload",
-            .axial = drive_by::inertial_number(-inertial_number),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::inertial_number_of_setup(-1.0),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::deviator_below(q),
             .most_steps = 100'000'000};
 }
+inline stage unloading(quantities::stress confining, quantities::stress q, double inertial_number = 1e-4) {
+    stage s = unloading(q);
+    s.axial = drive_by::inertial_number(-inertial_number);
+    s.lateral = drive_by::stress(confining);
+    return s;
+}
 
 /// The paper's test: preparation, consolidation, shear.
+inline std::vector<stage> triaxial_compression(quantities::ratio strain) {
+    std::vector<stage> s = preparation();
+    s.push_back(consolidation());
+    s.push_back(shear(strain));
+    return s;
+}
 inline std::vector<stage> triaxial_compression(quantities::length diameter, quantities::length height,
                                                quantities::stress confining, quantities::ratio strain,
                                                double inertial_number = 1e-4) {
@@ -155,7 +188,8 @@ template <class P> class triaxial_test {
     using boundary_type = typename P::boundary;
     using runner_type = runner<P>;
 
-    /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...).
+    /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...), and
+    /// where stages go to sizes or lateral stresses none of which is that of the setup.
     triaxial_test(triaxial_setup<P> setup, std::vector<stage> stages)
         : setup_(check(std::move(setup))), sim_(make_engine(setup_)),
           run_(sim_, make_plan(setup_, std::move(stages)), membrane_settings(setup_)) {}
@@ -194,6 +228,38 @@ template <class P> class triaxial_test {
         demand(s.vessel >= 1.2, "vessel", s.vessel, "at least 1.2", "1.8 is the default.");
         demand(s.threads >= 1, "threads", s.threads, ">= 1", "Take available_threads().");
         return s;
+    }
+    /// Stages may go to several sizes and stresses on their way, but the ones that the setup was made for are among
+    /// them: number of grains, speeds and rows follow from those. Stresses of seating, below 1 %, are free.
+    static void compare(const triaxial_setup<P>& s, const std::vector<stage>& stages) {
+        const auto one_of_them = [&](const char* name, const char* unit, double si_to_unit, double expected,
+                                     auto&& target_of) {
+            const stage* other = nullptr;
+            for (const stage& one : stages) {
+                const double target = target_of(one);
+                if (!(target > 0.0)) continue;
+                if (std::abs(target - expected) <= 1e-9 * expected) return;
+                other = &one;
+            }
+            if (other != nullptr)
+                throw input_error(
+                    fmt::format("{} of the setup, and of stage '{}'", name, other->name),
+                    fmt::format("{:g} and {:g} {}", si_to_unit * expected, si_to_unit * target_of(*other), unit),
+                    "the same in the setup and in one of the stages",
+                    "Leave it out of the stages: protocol::triaxial_compression(25_percent) takes it from the setup.");
+        };
+        using kind = axis_drive::kind;
+        const auto target = [](const axis_drive& a, kind how, double of_setup) {
+            return a.how != how ? 0.0 : a.of_setup ? a.value * of_setup : a.value;
+        };
+        const double d = s.diameter.si(), h = s.height.si(), sigma = s.confining.si();
+        one_of_them("diameter", "mm", 1e3, d,
+                    [&](const stage& one) { return 2.0 * target(one.lateral, kind::reach, 0.5 * d); });
+        one_of_them("height", "mm", 1e3, h, [&](const stage& one) { return target(one.axial, kind::reach, h); });
+        one_of_them("confining", "kPa", 1e-3, sigma, [&](const stage& one) {
+            const double stress = target(one.lateral, kind::stress, sigma);
+            return one.skip_if_relaxed || stress < 0.01 * sigma ? 0.0 : stress;
+        });
     }
     static double smallest_radius(const shape& s) {
         double r = s.circumscribed_radius;
@@ -251,6 +317,7 @@ template <class P> class triaxial_test {
     }
     static test_plan make_plan(const triaxial_setup<P>& s, std::vector<stage> stages) {
         test_plan p;
+        compare(s, stages);
         p.stages = std::move(stages);
         p.radius = 0.5 * s.diameter.si();
         p.height = s.height.si();
