@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <clast/protocol/vessel.hpp>
 
+#include <cmath>
+#include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <clast/bodies/spheres.hpp>
@@ -89,6 +92,10 @@ template <class P> sample sheared(const shape& grain, double porosity) {
     CHECK(seen.back().grain == static_cast<std::int32_t>(test.sim().grains.grain_count()) - 1);
     CHECK(seen.back().radius == grain.pebbles.back().radius);
     CHECK(norm(seen.back().displacement) > 0.0);
+    const auto last = static_cast<std::int32_t>(seen.size()) - 1;
+    CHECK(norm(seen.back().velocity) > 0.0);
+    CHECK(norm(seen.back().velocity - test.sim().grains.velocity_of(last)) == 0.0);
+    CHECK(seen.back().fragment == last + 1 - static_cast<std::int32_t>(grain.pebbles.size()));
     CHECK_FALSE(test.protocol().facets().empty());
     return test.protocol().measure();
 }
@@ -127,4 +134,25 @@ TEST_CASE("the poorest vessel gives the bits of the box that it hides") {
     CHECK(one.q == other.q);
     CHECK(one.volume == other.volume);
     CHECK(one.steps == other.steps);
+}
+
+TEST_CASE("a sphere that has got out stops a test, named like a grain") {
+    using policies = whole<boundaries::box, bodies::spheres>;
+    triaxial_test<policies> test({.grain = shapes::sphere(0.016),
+                                  .diameter = 66_mm,
+                                  .height = 75_mm,
+                                  .confining = 200_kPa,
+                                  .breakage = {},
+                                  .replacement = {}},
+                                 {stage{.name = "rest", .end = until::steps(200)}});
+    test.protocol().plan.look_every = 1; // the wall would throw it back
+    test.sim().grains.pebbles[7].x = {0.3, 0.0, 0.0};
+    observer quiet;
+    std::string text;
+    try {
+        test.run(quiet);
+    } catch (const run_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("grain 7 escaped (all of it)") == 0);
 }
