@@ -482,7 +482,7 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
                          "load more slowly, lower the speed limit of the servo, or use more rings"});
     };
     // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
-    // failed anyway. Whether grains can resist is for those to say who know the grains.
+    // failed anyway.
     const double least = 0.5 * set_.smallest_radius;
     if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
     for (std::size_t j = 0; j < apothem_.size(); ++j)

@@ -41,9 +41,9 @@ template <class P>
 concept simulator_policies = contacts::contact_law<typename P::contact> &&
                              replacements::replacement<typename P::replacement> &&
                              criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
-                             searches::search<typename P::search> &&
-                             std::default_initializable<typename P::search> && bodies::swept<typename P::body> &&
-                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::makes_bonds) &&
+                             searches::search<typename P::search> && std::default_initializable<typename P::search> &&
+                             bodies::swept<typename P::body> && spaces::space<typename P::space> &&
+                             (P::body::turns || !P::replacement::makes_bonds) &&
                              !(P::space::has_images && P::replacement::makes_bonds);
 
 } // namespace clast
