@@ -23,9 +23,19 @@ namespace clast {
 
 /// Where a mother grain is in the tables, and what has become of it.
 struct grain {
-    std::int32_t first = 0;    ///< first pebble; a grain's pebbles are consecutive
-    std::int32_t shape = 0;    ///< index into the shapes
-    std::int32_t cluster = -1; ///< number in the cluster pool of its shape once replaced; -1 while it is a clump
+    std::int32_t first = 0;          ///< first pebble; a grain's pebbles are consecutive
+    std::int32_t shape = 0;          ///< index into the shapes
+    std::int32_t cluster = is_whole; ///< number in the cluster pool of its shape once it is a cluster
+    std::int32_t id = 0;             ///< its number for life; its place in the table grows as others are split
+
+    static constexpr std::int32_t is_whole = -1; ///< a clump
+    static constexpr std::int32_t is_loose = -2; ///< balls that no bond joins
+};
+
+/// A run of consecutive pebbles of a grain that becomes a clump of its own.
+struct clump_part {
+    std::int32_t first = 0; ///< counted from the grain's first pebble
+    std::int32_t shape = 0; ///< made of these pebbles (part_of): its frame is that of the grain's shape
 };
 
 /// Orientation and angular momentum of a clump (world axes), in blocks of four numbers like its motion.
@@ -64,7 +74,7 @@ struct clumps {
     std::size_t grain_count() const { return grains.size(); }
     std::size_t pebble_count() const { return pebbles.size(); }
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
-    bool is_clump(std::size_t g) const { return grains[g].cluster < 0; }
+    bool is_clump(std::size_t g) const { return grains[g].cluster == grain::is_whole; }
     /// Number of the body that a pebble is when it moves on its own.
     std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
     double mass_of(const grain& g) const { return of_shape[static_cast<std::size_t>(g.shape)].mass; }
@@ -84,12 +94,8 @@ struct clumps {
     std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
-        for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
-            const double m = density * shapes[k].volume;
-            const vec3 i = density * shapes[k].inertia_per_density;
-            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
-        }
-        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
+        note_shapes();
+        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id});
         for (const shape_pebble& p : s.pebbles) {
             pebbles.push_back({centre + rotate(q, p.offset), p.radius});
             mother.push_back(id);
@@ -99,6 +105,38 @@ struct clumps {
         turning.push_back({q, {}});
         losses.push_back({});
         return id;
+    }
+
+    /// A clump becomes several, in the same place and with the same motion: momentum, angular momentum and kinetic
+    /// energy are kept to rounding. The parts stand in the grain's place, in the order of their pebbles, which they
+    /// share out among them without rest; grains behind it move up, so contact lists stay sorted by bodies. The first
+    /// part keeps the number for life and the losses. Pebbles must have been placed.
+    void split(std::size_t g, std::span<const clump_part> parts) {
+        note_shapes();
+        const std::size_t more = parts.size() - 1, before = grains.size();
+        const grain whole = grains[g];
+        const body_motion moved = motion[g];
+        const clump_rotation turned = turning[g];
+        const vec3 spin = spin_of(turned.q, turned.l, inverse_inertia(whole));
+        const auto up = static_cast<std::int32_t>(more), place = static_cast<std::int32_t>(g);
+        for (std::int32_t& o : owner) o += o > place ? up : 0; // balls, too, which are numbered behind all grains
+        for (std::int32_t& m : mother) m += m > place ? up : 0;
+        const auto open = [&](auto& table) {
+            table.insert(table.begin() + static_cast<std::ptrdiff_t>(g) + 1, more, {});
+        };
+        open(grains), open(motion), open(turning), open(losses);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const std::size_t at = g + k;
+            const shape& form = shapes[static_cast<std::size_t>(parts[k].shape)];
+            const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
+            grains[at] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id};
+            const vec3 arm = rotate(turned.q, form.mass_centre);
+            motion[at] = {moved.x + arm, moved.v + cross(spin, arm), spin};
+            const quaternion q = unit(turned.q * form.to_input_frame);
+            turning[at] = {q, rotate(q, scale(density * form.inertia_per_density, rotate_back(q, spin)))};
+            const index_range own = pebbles_of(at);
+            for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(at);
+        }
     }
 
     // ---- what an engine asks of bodies that it sweeps (here clumps) ------------------------------------------------
@@ -209,6 +247,13 @@ struct clumps {
     }
 
   private:
+    void note_shapes() {
+        for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
+            const double m = density * shapes[k].volume;
+            const vec3 i = density * shapes[k].inertia_per_density;
+            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
+        }
+    }
     /// Where the pebbles of a clump are: x = X + R o, by columns of R.
     template <std::size_t N> class placement {
       public:

@@ -183,7 +183,7 @@ template <triaxial_policies P> class runner {
             pebble_view& v = out[p];
             v.position = s.pebbles[p].x;
             v.radius = s.pebbles[p].radius;
-            v.grain = s.mother[p];
+            v.grain = s.grains[g].id;
             v.fragment = s.grains[g].first;
             v.velocity = s.motion[owner].v;
             if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.pebbles[p].x - s.motion[owner].x);
@@ -417,7 +417,8 @@ template <triaxial_policies P> class runner {
             if (!sim.boundary.outside(s.motion[owner].x, s.pebbles[p].radius)) continue;
             const vec3 x = s.motion[owner].x;
             throw run_error(
-                {fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
+                {fmt::format("grain {} escaped ({} of it)", s.grains[static_cast<std::size_t>(s.mother[p])].id,
+                             clump ? "all" : "a fragment"),
                  fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
                  when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
                  "use more rings or tiles, a lower stress or a smaller inertial number"});
