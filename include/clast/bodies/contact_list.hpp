@@ -158,6 +158,17 @@ template <class List, class Order> void join_shared(List& list, Order&& before) 
     list.shared = 0;
 }
 
+/// Sorts the pairs between two ranges and the others again, each for themselves, after the order has changed.
+template <class List, class Order> void sort_by(List& list, Order&& before) {
+    std::vector<std::uint32_t> order(list.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) { return before(list.pairs[a], list.pairs[b]); };
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(list.shared);
+    std::stable_sort(order.begin(), middle, less); // images of one pair stay as they stood
+    std::stable_sort(middle, order.end(), less);
+    list.reorder(order);
+}
+
 /// Half list of contacts. An empty history (frictionless law) takes no memory; rows are there after a step that was
 /// asked for them, and empty otherwise.
 template <class History> struct contact_list : pair_list {

@@ -5,7 +5,7 @@
 //   light bodies (balls and bonded clusters) pass through the span around t_n in sub-steps    light_bodies.hpp
 //   walls touch heavy bodies, servo                                                          walls.hpp
 //   sweep: heavy contacts, sums, motion; criteria look at clumps before these move           sweep.hpp, grain_load.hpp
-//   walls and space move; critical clumps are replaced                                       surgery.hpp
+//   walls and space move; the replacement acts on clumps that it has marked                  replace.hpp, surgery.hpp
 //   margins: whether lists still hold                                                        neighbourhood.hpp
 #pragma once
 
@@ -22,9 +22,9 @@
 #include <clast/engine/audit.hpp>
 #include <clast/engine/light_bodies.hpp>
 #include <clast/engine/neighbourhood.hpp>
+#include <clast/engine/replace.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/step_limit.hpp>
-#include <clast/engine/surgery.hpp>
 #include <clast/engine/sweep.hpp>
 #include <clast/engine/walls.hpp>
 
@@ -43,6 +43,8 @@ template <simulator_policies P> class engine : private scene<P> {
     using settings_type = engine_settings<P>;
     using scene_type::breakable;
     using scene_type::has_criterion;
+    static_assert(rooms::fills_all_needs<typename P::breakage>,
+                  "the breakage criterion `needs` something of a grain_load that an engine does not fill");
 
     // ---- what there is, and what may be changed between steps -------------------------------------------------------
     using scene_type::boundary; ///< to exchange it, set_boundary()
@@ -132,15 +134,8 @@ template <simulator_policies P> class engine : private scene<P> {
 
     void begin() {
         scene_type& s = own();
-        if constexpr (has_criterion) {
-            using criteria::needs;
-            if (!criteria::contains(needs::largest_force | needs::stress | needs::grain_id,
-                                    criteria::needs_of(settings.breakage)))
-                throw input_error("breakage criterion", "needs radius and modulus of the largest contact",
-                                  "criteria on the largest force or the mean stress of a grain",
-                                  "Take hertz_contact with the nominal radius (its default).");
-        }
         s.broken.begin(grains, settings);
+        s.replacing.begin(grains.grain_count());
         s.smallest_mass = grains.smallest_mass();
         s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         rooms::sort_pebbles(s);

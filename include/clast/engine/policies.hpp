@@ -42,7 +42,7 @@ concept simulator_policies = contacts::contact_law<typename P::contact> &&
                              replacements::replacement<typename P::replacement> &&
                              criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
                              searches::search<typename P::search> && bodies::swept<typename P::body> &&
-                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::makes_bonds) &&
-                             !(P::space::has_images && P::replacement::makes_bonds);
+                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::replaces) &&
+                             !(P::space::has_images && P::replacement::replaces);
 
 } // namespace clast

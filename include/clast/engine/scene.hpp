@@ -23,6 +23,8 @@
 #include <clast/engine/kernel.hpp>
 #include <clast/engine/list_widths.hpp>
 #include <clast/engine/policies.hpp>
+#include <clast/engine/replacement_state.hpp>
+#include <clast/replacements/concepts.hpp>
 
 namespace clast {
 
@@ -49,7 +51,7 @@ struct engine_totals {
     std::int64_t steps = 0;
     std::int64_t rebuilds = 0; ///< searches for neighbours
     std::int64_t renewals = 0; ///< of the lists, from what a search has found
-    std::int64_t replaced = 0;
+    std::int64_t replaced = 0; ///< clumps that became balls or other clumps
     std::int64_t broken_tension = 0;
     std::int64_t broken_shear = 0;
     double time = 0.0;
@@ -93,8 +95,22 @@ template <class Body, class Space> struct neighbour_state {
 struct range_work {
     std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
     margin_use use = margin_use::within; ///< of its bodies
-    std::vector<birth_certificate> marked;
 };
+/// The same where a replacement may want clumps.
+template <class R> struct marking_work : range_work {
+    std::vector<marked_grain<R>> marked; ///< of its clumps, ascending
+};
+
+namespace detail {
+template <class R> struct replacement_types {
+    using work = range_work;
+    using state = nothing_replaced;
+};
+template <replacements::replacing R> struct replacement_types<R> {
+    using work = marking_work<R>;
+    using state = replacement_state<R>;
+};
+} // namespace detail
 
 /// Heavy bodies are swept, each once in a step: clumps, or all spheres of a scene of spheres. Light bodies are balls,
 /// which pass through the step in sub-steps. A contact is light if one of its bodies is.
@@ -106,7 +122,9 @@ template <simulator_policies P> struct scene {
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
     using wall_row = boundaries::wall_row;
-    static constexpr bool breakable = P::replacement::makes_bonds;
+    using work = typename detail::replacement_types<typename P::replacement>::work;
+    static constexpr bool replaces = P::replacement::replaces;
+    static constexpr bool breakable = replacements::makes_bonds<typename P::replacement>(); ///< has balls and bonds
     static constexpr bool has_criterion = P::breakage::evaluated;
 
     engine_settings<P> settings;
@@ -125,6 +143,7 @@ template <simulator_policies P> struct scene {
     body_items unlisted; ///< the others
     neighbour_state<body_type, space_type> near;
     [[no_unique_address]] std::conditional_t<breakable, breakage_state, unbroken> broken;
+    [[no_unique_address]] typename detail::replacement_types<typename P::replacement>::state replacing;
 
     engine_totals totals;
     double dt = 0.0;     ///< s
@@ -137,7 +156,7 @@ template <simulator_policies P> struct scene {
     std::vector<boundaries::facet_load> light_loads; ///< mean over the sub-steps of light bodies
     std::vector<boundaries::coupling> couplings;
     body_ranges ranges;                      ///< of bodies, one for each thread
-    std::vector<range_work> sweeping;        ///< per range
+    std::vector<work> sweeping;              ///< per range
     std::vector<contact_load<>> shared_load; ///< of the contacts between two ranges
     std::vector<load_sum> acting;            ///< per body; zero between steps
     [[no_unique_address]] typename space_type::crossings crossings;
@@ -208,7 +227,12 @@ template <simulator_policies P> struct scene {
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
         a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
+        if constexpr (A::reading) { // of shapes that were made on the way
+            broken.make_pools(grains, settings);
+            smallest_mass = grains.smallest_mass();
+        }
         broken.archive(a);
+        replacing.archive(a);
     }
 };
 

@@ -87,7 +87,7 @@ template <class S> void move_ready(S& s, range_work& work, const vec3& stretch) 
     work.ready.clear();
 }
 template <class S, class Look>
-void sweep_range(S& s, const body_range& r, range_work& work, bool keep, const vec3& stretch, Look&& look) {
+void sweep_range(S& s, const body_range& r, typename S::work& work, bool keep, const vec3& stretch, Look&& look) {
     for (std::uint32_t k : r.incoming) s.shared_load[k].add_to_j(s.acting[s.grains.body_of(s.heavy.pairs[k].j)]);
     std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
     std::size_t across = s.crossings.from(row);
@@ -107,7 +107,7 @@ void sweep_range(S& s, const body_range& r, range_work& work, bool keep, const v
     move_ready(s, work, stretch);
 }
 
-/// Evaluates all heavy contacts and moves all heavy bodies. keep: rows of contacts are kept. look(body, range_work): is
+/// Evaluates all heavy contacts and moves all heavy bodies. keep: rows of contacts are kept. look(body, work): is
 /// called for every body when its loads are complete and before it moves, by the thread that sweeps it.
 template <class S, class Look> margin_use sweep(S& s, bool keep, Look&& look) {
     s.space.begin_sweep(s);
