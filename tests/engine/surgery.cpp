@@ -33,10 +33,10 @@ struct total {
     vec3 momentum, angular;
 };
 /// Of all bodies, at the instant of the clumps.
-template <class P> total total_of(const engine<P>& e) {
+template <class P> total total_of(const scene<P>& e) {
     const bodies::clumps& s = e.grains;
     total t;
-    t.energy = e.kinetic_energy();
+    t.energy = rooms::kinetic_energy(e);
     for (std::size_t g = 0; g < s.grain_count(); ++g) {
         if (!s.is_clump(g)) continue;
         const double m = s.mass_of(s.grains[g]);
@@ -44,7 +44,7 @@ template <class P> total total_of(const engine<P>& e) {
         t.momentum += m * s.motion[g].v;
         t.angular += m * cross(s.motion[g].x, s.motion[g].v) + s.turning[g].l;
     }
-    e.breakage().each_ball(s, [&](std::int32_t b, const body_motion& ball) {
+    e.broken.each_ball(s, [&](std::int32_t b, const body_motion& ball) {
         const auto p = static_cast<std::size_t>(b);
         t.mass += s.ball_mass(p);
         t.momentum += s.ball_mass(p) * ball.v;
@@ -52,6 +52,7 @@ template <class P> total total_of(const engine<P>& e) {
     });
     return t;
 }
+template <class P> total total_of(const engine<P>& e) { return total_of(e.state()); }
 /// Nothing but owners differs between two engines at the same instant.
 template <class P, class Q> void check_same_motion(const engine<P>& e, const engine<Q>& rigid) {
     const total before = total_of(rigid), after = total_of(e);
@@ -135,6 +136,37 @@ struct in_stages {
         if (bonds > 0 && grain % 2 == 0)
             surgery.bond(grain, std::vector<bonds::state>(bonds), surgery.strength_factor(grain));
     }
+};
+/// Balls for some steps, bonded, and then rigid again, in so many parts.
+struct thaws {
+    static constexpr bool replaces = true, makes_bonds = true;
+    struct grain_state {
+        std::int32_t frozen = 0;
+    };
+    bonds::parallel bond;
+    int span = 30;
+    std::int32_t parts = 2;
+
+    int looks_every() const { return 1; }
+    template <class View> std::optional<replacements::nothing> wants(const View& clump) const {
+        if (clump.state().frozen > 0 || clump.utilisation() < 1.0) return std::nullopt;
+        return replacements::nothing{};
+    }
+    template <class Surgery> void act(std::int32_t grain, replacements::nothing, Surgery& surgery) const {
+        surgery.release(grain);
+        surgery.bond(grain, std::vector<bonds::state>(surgery.shape_of(grain).bonds.size()), 1.0);
+        surgery.again_in(grain, span);
+    }
+    template <class Surgery> void again(std::int32_t grain, Surgery& surgery) const {
+        const auto n = static_cast<std::int32_t>(surgery.shape_of(grain).pebbles.size());
+        std::vector<replacements::pebble_run> runs;
+        for (std::int32_t k = 0; k < parts; ++k) runs.push_back({k * n / parts, (k + 1) * n / parts - k * n / parts});
+        ++surgery.state(grain).frozen;
+        surgery.freeze(grain, runs);
+    }
+};
+struct thawing : scenes::breakable<> {
+    using replacement = thaws;
 };
 struct staged : scenes::breakable<> {
     using replacement = in_stages;
@@ -471,6 +503,15 @@ TEST_CASE("threads and checkpoints make no difference to what is split, remember
         CHECK(digest_of(one) == digest_of(crushed<halving>(2, true)));
         CHECK(to_bytes(one) == to_bytes(crushed<halving>(3, true)));
     }
+    SECTION("balls that freeze in parts") {
+        const engine<thawing> one = crushed<thawing>(1, false);
+        std::size_t frozen = 0;
+        for (const grain& g : one.grains.grains) frozen += g.is_whole == g.cluster && g.shape > 0;
+        CHECK(frozen > 10);
+        CHECK(digest_of(one) == digest_of(crushed<thawing>(3, false)));
+        CHECK(digest_of(one) == digest_of(crushed<thawing>(2, true)));
+        CHECK(to_bytes(one) == to_bytes(crushed<thawing>(3, true)));
+    }
     SECTION("then balls, loose and bonded") {
         const engine<staged> one = crushed<staged>(1, false);
         CHECK(one.totals().replaced > 20);
@@ -520,6 +561,80 @@ TEST_CASE("a clump at rest between platens goes on in halves, and the ledger sta
     CHECK(std::abs(scenes::residual(e) - left) < 2e-3 * stored);
 }
 
+TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the ledger stays closed") {
+    for (const std::int32_t parts : {1, 2, 5})
+        for (const double strength : {1e6, 0.02}) { // of the bonds: many break in the second case
+            auto settings = scenes::settings<thawing>(1.0, strength);
+            settings.damping = 0.0;
+            settings.replacement.parts = parts;
+            engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+            while (e.breakage().balls.empty()) e.step();
+            e.step(20);
+            scene<thawing> s = e.state();
+            const total before = total_of(s);
+            const auto sum = [&] {
+                return rooms::kinetic_energy(s) + rooms::elastic_energy(s) + s.totals.bond_dissipation;
+            };
+            const double held = sum();
+            const std::vector<pebble_pair> carried = s.asleep;
+            REQUIRE((s.broken.balls.size() == 28 && s.light.size() > 0));
+            rooms::surgery<scene<thawing>> room(s);
+            for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
+            room.finish();
+            REQUIRE((s.broken.balls.empty() && s.grains.grain_count() == 2 * static_cast<std::size_t>(parts)));
+            const total after = total_of(s);
+            CHECK(after.mass == Approx(before.mass).epsilon(1e-14));
+            CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(before.momentum));
+            CHECK(norm(after.angular - before.angular) < 1e-12 * norm(before.angular));
+            CHECK(after.energy < before.energy);
+            double contacts = 0.0; // between parts, which no list has yet
+            for (const pebble_pair& p : carried) {
+                if (s.grains.body_of(p.i) == s.grains.body_of(p.j)) continue;
+                const double depth = s.radius(p.i) + s.radius(p.j) - norm(s.position(p.i) - s.position(p.j));
+                contacts += s.settings.grain_contact.stored({0, 0, 1, depth, 1, 1}, {});
+            }
+            CHECK(sum() + contacts == Approx(held).epsilon(1e-12));
+            std::vector<vec3> places;
+            for (const clump_pebble& p : s.grains.pebbles) places.push_back(p.x);
+            for (std::size_t g = 0; g < s.grains.grain_count(); ++g) s.grains.place(g);
+            for (std::size_t p = 0; p < places.size(); ++p) CHECK(norm(places[p] - s.grains.pebbles[p].x) < 1e-16);
+
+            // the same inside an engine, which goes on
+            while (e.grains.grain_count() == 2 && !e.breakage().balls.empty()) e.step();
+            e.take_events();
+            check_tables(e);
+            const total start = total_of(e);
+            for (int k = 0; k < 300; ++k) e.step();
+            const total end = total_of(e);
+            CHECK(norm(end.momentum - start.momentum) < 1e-12 * norm(start.momentum));
+            CHECK(norm(end.angular - start.angular) < 1e-10 * norm(start.angular));
+        }
+}
+
+TEST_CASE("contacts of balls that freeze go on with their histories") {
+    auto settings = scenes::settings<thawing>(1.0, 1e6);
+    settings.damping = 0.0;
+    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+    while (e.breakage().balls.empty()) e.step();
+    scene<thawing> s = e.state();
+    rooms::renew_lists(s); // contacts have come to the list of balls
+    rooms::surgery<scene<thawing>> room(s);
+    std::size_t rubbing = 0;
+    for (auto& h : s.light.history) h = {1.0 + static_cast<double>(rubbing++), 2.0, 3.0};
+    const auto was = s.light;
+    for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
+    room.finish();
+    rooms::renew_lists(s);
+    CHECK(s.light.size() == 0);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < s.heavy.size(); ++k) { // others have come near
+        const std::size_t at = scenes::position(was, s.heavy.pairs[k]);
+        CHECK(s.heavy.history[k].x == (at < was.size() ? was.history[at].x : 0.0));
+        kept += at < was.size();
+    }
+    CHECK(kept > 0);
+}
+
 TEST_CASE("surgery refuses what it cannot do, with an error") {
     engine<staged> e = scenes::collision(scenes::settings<staged>(never));
     scene<staged> s(e.settings, e.grains, e.boundary, {});
@@ -540,9 +655,26 @@ TEST_CASE("surgery refuses what it cannot do, with an error") {
     CHECK((s.grains.grain_count() == 2 && s.totals.replaced == 0));
     room.release(1);
     CHECK_THROWS_AS(room.split(1, runs{{0, 2}, {2, 2}}), input_error); // no clump any more
+    CHECK_THROWS_AS(room.release(1), input_error);
+    CHECK_THROWS_AS(room.freeze(1, runs{{0, 2}}), input_error);
+    CHECK_THROWS_AS(room.freeze(0, runs{{0, 4}}), input_error); // a clump
     CHECK_THROWS_AS(room.bond(1, std::vector<bonds::state>(5), 1.0), input_error);
     room.bond(1, std::vector<bonds::state>(6), 1.0);
     room.split(0, runs{{0, 1}, {1, 3}});
     CHECK(s.broken.members[0] == std::vector<std::int32_t>{2}); // the cluster has moved up
     CHECK(s.grains.owner == std::vector<std::int32_t>{0, 1, 1, 1, 7, 8, 9, 10});
+}
+
+TEST_CASE("what overlaps between two parts becomes a contact, whose energy no one has paid for") {
+    auto settings = scenes::settings<halving>(never);
+    bodies::clumps two = scenes::empty(make_shape("two", {{{0, 0, 0}, 0.005}, {{0.01 - 1.5e-11, 0, 0}, 0.005}}));
+    two.add(0, {}, {});
+    scene<halving> s(settings, two, boundaries::solid_strips(scenes::cylinder(0.1, 0.1)), {});
+    s.replacing.begin(1);
+    rooms::sort_pebbles(s);
+    s.near.margins.resize(1);
+    rooms::surgery<scene<halving>> room(s);
+    room.split(0, std::vector<replacements::pebble_run>{{0, 1}, {1, 1}});
+    CHECK(s.totals.bond_dissipation == Approx(-0.5 * settings.grain_contact.kn * 1.5e-11 * 1.5e-11).epsilon(1e-5));
+    CHECK((s.grains.grain_count() == 2 && s.totals.replaced == 1));
 }

@@ -274,6 +274,7 @@ TEST_CASE("a part that bonds do not hold together has none, and a part of one pe
     const shape whole = shapes::apollonian_14(0.02);
     CHECK(part_of(whole, 0, 2).bonds.empty()); // opposite pebbles
     CHECK(part_of(whole, 6, 8).bonds.empty()); // the small ones, which do not touch each other
+    CHECK(part_of(whole, 5, 3).bonds.empty()); // a big one that touches one of two small ones
     const shape one = part_of(whole, 13, 1);
     CHECK((one.bonds.empty() && norm(one.pebbles[0].offset) == 0.0));
     CHECK(one.circumscribed_radius == whole.pebbles[13].radius);

@@ -112,31 +112,44 @@ struct clumps {
     /// share out among them without rest; grains behind it move up, so contact lists stay sorted by bodies. The first
     /// part keeps the number for life and the losses. Pebbles must have been placed.
     void split(std::size_t g, std::span<const clump_part> parts) {
-        note_shapes();
-        const std::size_t more = parts.size() - 1, before = grains.size();
-        const grain whole = grains[g];
         const body_motion moved = motion[g];
         const clump_rotation turned = turning[g];
-        const vec3 spin = spin_of(turned.q, turned.l, inverse_inertia(whole));
-        const auto up = static_cast<std::int32_t>(more), place = static_cast<std::int32_t>(g);
-        for (std::int32_t& o : owner) o += o > place ? up : 0; // balls, too, which are numbered behind all grains
-        for (std::int32_t& m : mother) m += m > place ? up : 0;
-        const auto open = [&](auto& table) {
-            table.insert(table.begin() + static_cast<std::ptrdiff_t>(g) + 1, more, {});
-        };
-        open(grains), open(motion), open(turning), open(losses);
+        const vec3 spin = spin_of(turned.q, turned.l, inverse_inertia(grains[g]));
+        divide(g, parts);
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            const std::size_t at = g + k;
             const shape& form = shapes[static_cast<std::size_t>(parts[k].shape)];
-            const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
-            grains[at] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id};
             const vec3 arm = rotate(turned.q, form.mass_centre);
-            motion[at] = {moved.x + arm, moved.v + cross(spin, arm), spin};
+            motion[g + k] = {moved.x + arm, moved.v + cross(spin, arm), spin};
             const quaternion q = unit(turned.q * form.to_input_frame);
-            turning[at] = {q, rotate(q, scale(density * form.inertia_per_density, rotate_back(q, spin)))};
-            const index_range own = pebbles_of(at);
-            for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(at);
+            turning[g + k] = {q, rotate(q, scale(density * form.inertia_per_density, rotate_back(q, spin)))};
         }
+    }
+    /// The balls of a grain become clumps, with their momentum and angular momentum; tables as for split(). The frame
+    /// of the shapes is that of the world, from the first pebble of each. Returns the kinetic energy that is lost (J).
+    double freeze(std::size_t g, std::span<const clump_part> parts) {
+        std::vector<body_motion> moved;
+        std::vector<clump_rotation> turned;
+        double lost = 0.0;
+        for (const clump_part& part : parts) {
+            const shape& form = shapes[static_cast<std::size_t>(part.shape)];
+            const auto first = static_cast<std::size_t>(grains[g].first + part.first);
+            const vec3 centre = pebbles[first].x + form.mass_centre;
+            vec3 momentum, angular;
+            for (std::size_t p = first; p < first + form.pebbles.size(); ++p) {
+                const body_motion& one = motion[ball(static_cast<std::int32_t>(p))];
+                momentum += ball_mass(p) * one.v;
+                angular += ball_mass(p) * cross(pebbles[p].x - centre, one.v) + ball_inertia(p) * one.w;
+                lost += 0.5 * (ball_mass(p) * norm2(one.v) + ball_inertia(p) * norm2(one.w));
+            }
+            const double mass = density * form.volume;
+            const vec3 i = density * form.inertia_per_density, inverse{1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
+            turned.push_back({form.to_input_frame, angular});
+            moved.push_back({centre, momentum / mass, spin_of(form.to_input_frame, angular, inverse)});
+            lost -= 0.5 * norm2(momentum) / mass + rotational_energy(form.to_input_frame, angular, inverse);
+        }
+        divide(g, parts);
+        for (std::size_t k = 0; k < parts.size(); ++k) motion[g + k] = moved[k], turning[g + k] = turned[k];
+        return lost;
     }
 
     // ---- what an engine asks of bodies that it sweeps (here clumps) ------------------------------------------------
@@ -247,6 +260,25 @@ struct clumps {
     }
 
   private:
+    /// Gives the pebbles of a grain to so many clumps in its place, whose motion is still to be set.
+    void divide(std::size_t g, std::span<const clump_part> parts) {
+        note_shapes();
+        const std::size_t more = parts.size() - 1, before = grains.size();
+        const grain whole = grains[g];
+        const auto up = static_cast<std::int32_t>(more), place = static_cast<std::int32_t>(g);
+        for (std::int32_t& o : owner) o += o > place ? up : 0; // balls, too, which are numbered behind all grains
+        for (std::int32_t& m : mother) m += m > place ? up : 0;
+        const auto open = [&](auto& table) {
+            table.insert(table.begin() + static_cast<std::ptrdiff_t>(g) + 1, more, {});
+        };
+        open(grains), open(motion), open(turning), open(losses);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
+            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id};
+            const index_range own = pebbles_of(g + k);
+            for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(g + k);
+        }
+    }
     void note_shapes() {
         for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
             const double m = density * shapes[k].volume;

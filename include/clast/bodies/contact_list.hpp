@@ -218,6 +218,23 @@ template <class History> struct contact_list : pair_list {
     }
 };
 
+/// Takes the contacts off a list without shared pairs for which gone(pair).
+template <class History, class F> void erase_contacts(contact_list<History>& list, F&& gone) {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        if (gone(list.pairs[k])) continue;
+        list.pairs[n] = list.pairs[k];
+        if (!list.image.empty()) list.image[n] = list.image[k];
+        if constexpr (contact_list<History>::remembers) list.history[n] = list.history[k];
+        if (!list.rows.empty()) list.rows[n] = list.rows[k];
+        ++n;
+    }
+    list.pairs.resize(n);
+    if (!list.image.empty()) list.image.resize(n);
+    if constexpr (contact_list<History>::remembers) list.history.resize(n);
+    if (!list.rows.empty()) list.rows.resize(n);
+}
+
 /// For every body the rows that act on it, in the order of the list: what makes sums independent of threads.
 class incidence {
   public:

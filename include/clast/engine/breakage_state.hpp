@@ -54,6 +54,16 @@ struct breakage_state {
             pools.emplace_back(bonds::lattice(g.shapes[k], s.replacement.bond, g.density), s.damping);
         members.resize(g.shapes.size());
     }
+    /// The balls of a grain are none any more, and its bonds are gone.
+    void balls_were_frozen(const bodies::clumps& g, const grain& one) {
+        const index_range own = g.pebbles_of(static_cast<std::size_t>(&one - g.grains.data()));
+        std::erase_if(balls, [&](std::int32_t p) {
+            return own.begin <= static_cast<std::size_t>(p) && static_cast<std::size_t>(p) < own.end;
+        });
+        for (std::size_t p = own.begin; p < own.end; ++p) bonded[p] = 0;
+        if (one.cluster >= 0)
+            pools[static_cast<std::size_t>(one.shape)].dissolve(static_cast<std::size_t>(one.cluster));
+    }
     /// Grain number g has become `count` clumps, which stand in its place: those behind it have moved up.
     void grain_was_split(const bodies::clumps& g, std::size_t number, std::size_t count) {
         const auto up = static_cast<std::int32_t>(count) - 1, place = static_cast<std::int32_t>(number);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -56,7 +57,7 @@ template <class S> class surgery {
     }
 
     /// A clump's pebbles become balls of their own in the same place with the same motion; kinetic energy is kept, too.
-    /// Counted in engine_totals::replaced.
+    /// Counted in engine_totals::replaced. Throws input_error if it is no clump.
     void release(std::int32_t grain);
     /// Joins the balls of a grain that was released by the bonds of its shape, with these states (world axes, one per
     /// bond) and their strength over that of the material. What energy the bonds hold is booked as negative
@@ -70,6 +71,12 @@ template <class S> class surgery {
     /// tangent pebbles; shapes allow overlaps of 1e-9 d) is booked as negative bond_dissipation. Counted in
     /// engine_totals::replaced. Throws input_error if the parts are not such.
     void split(std::int32_t grain, std::span<const replacements::pebble_run> parts);
+    /// The balls of a grain become rigid clumps where they are: parts as for split(), places and numbers, too. Momentum
+    /// and angular momentum are kept to rounding, and contacts with other grains and between parts; bonds are gone. The
+    /// kinetic energy that this takes, and what bonds and contacts within a part held, are booked as bond_dissipation,
+    /// less what contacts between parts hold that a bond has carried until now. Parts get shapes of their own, with the
+    /// bonds that were intact. Throws input_error if the grain is a clump, or the parts are not such.
+    void freeze(std::int32_t grain, std::span<const replacements::pebble_run> parts);
     /// The policy's again(grain, surgery) is called at the end of the step that comes `steps` (>= 1) after this one.
     /// If the grain is split meanwhile, about the first part. Throws input_error for less than one step.
     void again_in(std::int32_t grain, std::int64_t steps) {
@@ -83,10 +90,16 @@ template <class S> class surgery {
 
   private:
     const clast::grain& one(std::int32_t grain) const { return s_.grains.grains[s_.at(grain)]; }
+    std::int32_t add_shape(clast::shape made);
     std::int32_t shape_of_part(std::int32_t whole, const replacements::pebble_run& part);
-    void check(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
+    std::int32_t shape_of_frozen(std::int32_t grain, const replacements::pebble_run& part);
+    void check(std::int32_t grain, std::span<const replacements::pebble_run> parts, bool is_clump) const;
+    void divide(std::int32_t grain, std::size_t parts);
     /// Elastic energy (J) of contacts between parts of a grain.
     double energy_between(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
+    /// Elastic energy (J) of bonds of a grain and of contacts within its parts, less that of contacts between parts
+    /// that a bond carries.
+    double energy_within(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
 
     S& s_;
     bool cut_ = false, owners_changed_ = false;
@@ -97,6 +110,8 @@ template <class S> void surgery<S>::release(std::int32_t number) {
     auto& b = s_.broken;
     const auto g = s_.at(number);
     clast::grain& one = s_.grains.grains[g];
+    if (!s_.grains.is_clump(g))
+        throw input_error("release", fmt::format("grain {}", number), "a clump", "It has been released already.");
     s_.grains.place(g, s_.unlisted.of(g));
     const vec3 spin = spin_of(s_.grains.turning[g].q, s_.grains.turning[g].l, s_.grains.inverse_inertia(one));
     const index_range own = s_.grains.pebbles_of(g);
@@ -133,14 +148,16 @@ template <class S> void surgery<S>::bond(std::int32_t number, const std::vector<
     s_.totals.bond_dissipation -= pool.energy(s_.at(one.cluster)); // born with energy that no one paid for
 }
 
-template <class S> void surgery<S>::check(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
+template <class S>
+void surgery<S>::check(std::int32_t number, std::span<const replacements::pebble_run> parts, bool is_clump) const {
     std::int32_t next = 0;
-    bool fine = s_.grains.is_clump(s_.at(number)) && !parts.empty();
+    bool fine = s_.grains.is_clump(s_.at(number)) == is_clump && !parts.empty();
     for (const replacements::pebble_run& p : parts) fine = fine && p.first == next && p.count > 0, next += p.count;
     const auto pebbles = static_cast<std::int32_t>(shape_of(number).pebbles.size());
     if (!fine || next != pebbles)
-        throw input_error("split", fmt::format("{} parts of grain {}", parts.size(), number),
-                          fmt::format("a clump, and runs that share out its {} pebbles in their order", pebbles),
+        throw input_error(is_clump ? "split" : "freeze", fmt::format("{} parts of grain {}", parts.size(), number),
+                          fmt::format("a {}, and runs that share out its {} pebbles in their order",
+                                      is_clump ? "clump" : "grain that was released", pebbles),
                           "The first run starts at 0, each other one where the one before it ends.");
 }
 
@@ -158,20 +175,77 @@ double surgery<S>::energy_between(std::int32_t number, std::span<const replaceme
     return e;
 }
 
+template <class S>
+double surgery<S>::energy_within(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
+    const clast::grain& g = one(number);
+    const auto part_at = [&](std::int32_t pebble) { // -1: of another grain
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            if (const std::int32_t p = pebble - g.first - parts[k].first; 0 <= p && p < parts[k].count)
+                return static_cast<int>(k);
+        return -1;
+    };
+    const auto stored = [&](const pebble_pair& p, const typename S::history& h) {
+        const double ri = s_.radius(p.i), rj = s_.radius(p.j);
+        const double depth = ri + rj - norm(s_.position(p.j) - s_.position(p.i));
+        return s_.settings.grain_contact.stored({0, 0, 1, depth, ri, rj}, h);
+    };
+    double e = g.cluster >= 0 ? s_.broken.pools[s_.at(g.shape)].energy(s_.at(g.cluster)) : 0.0;
+    for (std::size_t k = 0; k < s_.light.size(); ++k) {
+        const pebble_pair& p = s_.light.pairs[k];
+        if (const int a = part_at(p.i); a < 0 || a != part_at(p.j)) continue;
+        if constexpr (decltype(S::light)::remembers)
+            e += stored(p, s_.light.history[k]);
+        else
+            e += stored(p, {});
+    }
+    for (const pebble_pair& p : s_.asleep)
+        if (const int a = part_at(p.i); a >= 0 && a != part_at(p.j)) e -= stored(p, {});
+    return e;
+}
+
+template <class S> std::int32_t surgery<S>::add_shape(clast::shape made) {
+    s_.grains.shapes.push_back(std::move(made));
+    s_.broken.make_pools(s_.grains, s_.settings);
+    s_.smallest_mass = s_.grains.smallest_mass();
+    return static_cast<std::int32_t>(s_.grains.shapes.size()) - 1;
+}
+
 template <class S> std::int32_t surgery<S>::shape_of_part(std::int32_t whole, const replacements::pebble_run& part) {
     if (part.count == static_cast<std::int32_t>(s_.grains.shapes[s_.at(whole)].pebbles.size())) return whole;
     for (const auto& k : s_.replacing.parts)
         if (k.whole == whole && k.first == part.first && k.count == part.count) return k.part;
-    const auto number = static_cast<std::int32_t>(s_.grains.shapes.size());
-    s_.grains.shapes.push_back(part_of(s_.grains.shapes[s_.at(whole)], s_.at(part.first), s_.at(part.count)));
-    s_.replacing.parts.push_back({whole, part.first, part.count, number});
-    s_.broken.make_pools(s_.grains, s_.settings);
-    s_.smallest_mass = s_.grains.smallest_mass();
-    return number;
+    const std::int32_t made = add_shape(part_of(s_.grains.shapes[s_.at(whole)], s_.at(part.first), s_.at(part.count)));
+    s_.replacing.parts.push_back({whole, part.first, part.count, made});
+    return made;
+}
+
+template <class S> std::int32_t surgery<S>::shape_of_frozen(std::int32_t number, const replacements::pebble_run& part) {
+    const clast::grain& g = one(number);
+    const clast::shape& whole = shape_of(number);
+    std::vector<shape_pebble> pebbles;
+    const vec3 origin = s_.position(g.first + part.first);
+    for (std::int32_t p = g.first + part.first; p < g.first + part.first + part.count; ++p)
+        pebbles.push_back({s_.position(p) - origin, s_.radius(p)});
+    std::vector<shape_bond> bonds;
+    for (std::size_t e = 0; g.cluster >= 0 && e < whole.bonds.size(); ++e) {
+        const shape_bond b{whole.bonds[e].a - part.first, whole.bonds[e].b - part.first};
+        if (0 <= b.a && b.b < part.count && s_.broken.pools[s_.at(g.shape)].is_intact(s_.at(g.cluster), e))
+            bonds.push_back(b);
+    }
+    return add_shape(rigid_shape(whole.name + " frozen", std::move(pebbles), std::move(bonds)));
+}
+
+template <class S> void surgery<S>::divide(std::int32_t number, std::size_t parts) {
+    const auto g = s_.at(number);
+    s_.broken.grain_was_split(s_.grains, g, parts);
+    s_.replacing.grain_was_split(g, parts);
+    s_.near.margins.insert(s_.near.margins.begin() + static_cast<std::ptrdiff_t>(g) + 1, parts - 1, 0.0);
+    sort_pebbles(s_);
+    owners_changed_ = cut_ = true;
 }
 
 template <class S> void surgery<S>::split(std::int32_t number, std::span<const replacements::pebble_run> parts) {
-    check(number, parts);
+    check(number, parts, true);
     if (parts.size() == 1) return;
     const auto g = s_.at(number);
     s_.grains.place(g, s_.unlisted.of(g));
@@ -179,12 +253,20 @@ template <class S> void surgery<S>::split(std::int32_t number, std::span<const r
     std::vector<clump_part> made;
     for (const replacements::pebble_run& p : parts) made.push_back({p.first, shape_of_part(one(number).shape, p)});
     s_.grains.split(g, made);
-    s_.broken.grain_was_split(s_.grains, g, parts.size());
-    s_.replacing.grain_was_split(g, parts.size());
-    s_.near.margins.insert(s_.near.margins.begin() + static_cast<std::ptrdiff_t>(g) + 1, parts.size() - 1, 0.0);
-    sort_pebbles(s_);
     ++s_.totals.replaced;
-    owners_changed_ = cut_ = true;
+    divide(number, parts.size());
+}
+
+template <class S> void surgery<S>::freeze(std::int32_t number, std::span<const replacements::pebble_run> parts) {
+    static_assert(S::breakable, "freeze() needs balls, which a scene has if the replacement says makes_bonds = true");
+    check(number, parts, false);
+    s_.totals.bond_dissipation += energy_within(number, parts);
+    std::vector<clump_part> made;
+    for (const replacements::pebble_run& p : parts) made.push_back({p.first, shape_of_frozen(number, p)});
+    s_.broken.balls_were_frozen(s_.grains, one(number));
+    s_.totals.bond_dissipation += s_.grains.freeze(s_.at(number), made);
+    erase_contacts(s_.light, [&](const pebble_pair& p) { return s_.grains.body_of(p.i) == s_.grains.body_of(p.j); });
+    divide(number, parts.size());
 }
 
 template <class S> void surgery<S>::finish() {

@@ -224,20 +224,29 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
     return s;
 }
 
-/// The shape of a run of pebbles of another: pebbles first to first + count - 1, with their bonds among each other. Its
-/// mass_centre and to_input_frame are seen from the principal axes of the whole. A part that its bonds do not hold
-/// together has none: it is one rigid piece, but can never become a cluster. first + count is at most the number of
-/// pebbles.
-inline shape part_of(const shape& whole, std::size_t first, std::size_t count) {
-    const auto begin = whole.pebbles.begin() + static_cast<std::ptrdiff_t>(first);
+/// Shape of pebbles where they are, which may overlap (they count twice there, as everywhere), with these bonds. Pieces
+/// that bonds do not hold together have none: it is one rigid body, but can never become a cluster. Not checked, unlike
+/// make_shape.
+inline shape rigid_shape(std::string name, std::vector<shape_pebble> pebbles, std::vector<shape_bond> bonds) {
     shape s;
-    s.name = fmt::format("{} [{}, {})", whole.name, first, first + count);
-    detail::complete(s, {begin, begin + static_cast<std::ptrdiff_t>(count)});
-    const auto from = static_cast<std::int32_t>(first), end = static_cast<std::int32_t>(first + count);
-    for (const shape_bond& b : whole.bonds)
-        if (from <= b.a && b.b < end) s.bonds.push_back({b.a - from, b.b - from});
+    s.name = std::move(name);
+    detail::complete(s, std::move(pebbles));
+    s.bonds = std::move(bonds);
     if (pieces(s) > 1) s.bonds.clear();
     return s;
+}
+
+/// The rigid_shape of a run of pebbles of another: pebbles first to first + count - 1, with their bonds among each
+/// other. Its mass_centre and to_input_frame are seen from the principal axes of the whole. first + count is at most
+/// the number of pebbles.
+inline shape part_of(const shape& whole, std::size_t first, std::size_t count) {
+    const auto begin = whole.pebbles.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto from = static_cast<std::int32_t>(first), end = static_cast<std::int32_t>(first + count);
+    std::vector<shape_bond> bonds;
+    for (const shape_bond& b : whole.bonds)
+        if (from <= b.a && b.b < end) bonds.push_back({b.a - from, b.b - from});
+    return rigid_shape(fmt::format("{} [{}, {})", whole.name, first, first + count),
+                       {begin, begin + static_cast<std::ptrdiff_t>(count)}, std::move(bonds));
 }
 
 /// The same shape with another circumscribed diameter d (m). Throws input_error if d is not positive and finite.

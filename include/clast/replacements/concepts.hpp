@@ -69,6 +69,7 @@ template <class State> struct surgery_archetype {
     void release(std::int32_t grain);
     void bond(std::int32_t grain, const std::vector<bonds::state>& born, double strength);
     void split(std::int32_t grain, std::span<const pebble_run> parts);
+    void freeze(std::int32_t grain, std::span<const pebble_run> parts);
     void again_in(std::int32_t grain, std::int64_t steps);
 };
 
