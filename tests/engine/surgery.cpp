@@ -678,3 +678,17 @@ TEST_CASE("what overlaps between two parts becomes a contact, whose energy no on
     CHECK(s.totals.bond_dissipation == Approx(-0.5 * settings.grain_contact.kn * 1.5e-11 * 1.5e-11).epsilon(1e-5));
     CHECK((s.grains.grain_count() == 2 && s.totals.replaced == 1));
 }
+
+TEST_CASE("pairs are sorted again by the parts of a grain that is split, with what they remember") {
+    engine<halving> e = scenes::collision(scenes::settings<halving>(never));
+    scene<halving> s = e.state();
+    s.heavy.pairs = {{3, 4}, {0, 5}, {2, 5}}; // by second pebble: all are of the first grain
+    s.heavy.resize();
+    for (std::size_t k = 0; k < 3; ++k) s.heavy.history[k].x = static_cast<double>(k);
+    rooms::surgery<scene<halving>> room(s);
+    room.split(0, std::vector<replacements::pebble_run>{{0, 2}, {2, 2}});
+    room.finish();
+    CHECK(s.heavy.pairs == std::vector<pebble_pair>{{0, 5}, {3, 4}, {2, 5}});
+    CHECK((s.heavy.history[0].x == 1.0 && s.heavy.history[1].x == 0.0 && s.heavy.history[2].x == 2.0));
+    CHECK((s.near.must_search && s.estimate_due));
+}
