@@ -57,7 +57,8 @@ template <class Specimen> void bodies_step(benchmark::State& state, Specimen& s,
     const std::vector<double> margins(bodies, 1.0);
     const double damping = static_cast<double>(state.range(0)) / 100.0;
     for (auto _ : state) {
-        margin_use use = s.advance(std::span<const moving_body>(moving), dt, damping, wanted,
+        margin_use use = s.advance(std::span<const moving_body>(moving),
+                                   integrators::rule<integrators::leapfrog>{{damping}, {}, dt, dt}, wanted,
                                    {since, margins, {1.0, 1.0, 1.0}}, [](std::size_t) { return 0.0; });
         benchmark::DoNotOptimize(use);
         for (moving_body& one : moving) one.load.force = -one.load.force, one.load.moment = -one.load.moment;

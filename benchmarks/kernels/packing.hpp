@@ -67,7 +67,7 @@ clast::engine<P> make_engine(typename P::body grains, const clast::vec3& edges, 
                              .lateral_contact = law,
                              .breakage = {},
                              .replacement = {},
-                             .damping = wanted.damping,
+                             .scheme = {.damping = wanted.damping},
                              .run = clast::execution(wanted.threads)},
                             std::move(grains), cell);
 }

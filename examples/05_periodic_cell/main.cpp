@@ -27,7 +27,7 @@ int main() {
                               .lateral_contact = law,
                               .breakage = {},
                               .replacement = {},
-                              .damping = 0.5},
+                              .scheme = {.damping = 0.5}},
                              spheres, clast::spaces::periodic({0.022 * n, 0.022 * n, 0.022 * n}));
     const auto report = [&](const char* when) {
         const clast::mat3 s = clast::measure::love_weber(e, e.space.volume());

@@ -44,7 +44,7 @@ int main() {
                                 .lateral_contact = {},
                                 .breakage = {},
                                 .replacement = {},
-                                .damping = 0.0,
+                                .scheme = {.damping = 0.0},
                                 .safety = 0.02},
                                balls, clast::spaces::open{});
     while (e.elastic_energy() > 0.0) e.step(10); // the springs push them apart

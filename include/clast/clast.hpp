@@ -16,6 +16,7 @@
 #include <clast/criteria/one_of.hpp>
 #include <clast/engine/engine.hpp>
 #include <clast/grains/shape.hpp>
+#include <clast/integrators/leapfrog.hpp>
 #include <clast/protocol/triaxial.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>

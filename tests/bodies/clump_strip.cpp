@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <clast/core/random.hpp>
+#include <clast/integrators/leapfrog.hpp>
 
 #include <catch.hpp>
 
@@ -67,7 +68,7 @@ TEST_CASE("clumps side by side move as one alone: kick, damping, free rotation, 
     const double h = 1e-5;
     for (const double damping : {0.0, 0.7}) {
         clump_strip s = strip_of(all, 0, all.size());
-        advance(s, h, damping);
+        advance(s, integrators::rule<integrators::leapfrog>{{damping}, {}, h, h});
         int fast = 0;
         for (std::size_t k = 0; k < all.size(); ++k) {
             const clump& c = all[k];
@@ -106,11 +107,11 @@ TEST_CASE("clumps side by side move as one alone: kick, damping, free rotation, 
 TEST_CASE("how clumps are grouped does not change a bit") {
     const std::vector<clump> all = scene(16);
     clump_strip whole = strip_of(all, 0, 16);
-    advance(whole, 1e-5, 0.7);
+    advance(whole, integrators::rule<integrators::leapfrog>{{0.7}, {}, 1e-5, 1e-5});
     for (std::size_t begin = 0, n = 1; begin < 16; begin += n, n = n + 2) {
         const std::size_t end = std::min<std::size_t>(16, begin + n);
         clump_strip part = strip_of(all, begin, end);
-        advance(part, 1e-5, 0.7);
+        advance(part, integrators::rule<integrators::leapfrog>{{0.7}, {}, 1e-5, 1e-5});
         for (std::size_t k = begin; k < end; ++k) {
             const auto same = [&](const clump_strip::row& a, const clump_strip::row& b) {
                 return std::memcmp(&a[k], &b[k - begin], sizeof(double)) == 0;

@@ -85,7 +85,8 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     const auto further = [](std::size_t g) { return 1e-3 * static_cast<double>(g); };
     std::vector<double> margins(n, 1.0);
     const auto move = [&](bodies::clumps& some, std::span<const moving_body> which) {
-        return some.advance(which, h, damping, wanted, {since, margins, stretch}, further);
+        return some.advance(which, integrators::rule<integrators::leapfrog>{{damping}, {}, h, h}, wanted,
+                            {since, margins, stretch}, further);
     };
     bodies::clumps together = s, alone = s;
     CHECK(move(together, bodies) == margin_use::within);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <clast/core/random.hpp>
-#include <clast/integrators/local_damping.hpp>
+#include <clast/integrators/leapfrog.hpp>
 
 #include <catch.hpp>
 
@@ -33,7 +33,8 @@ TEST_CASE("spheres move by the loads that act on them, damped or not, and say ho
         std::vector<double> margins(n, 1.0);
         const auto move = [&] {
             s = before;
-            return s.advance(bodies, h, damping, {}, {since, margins, stretch}, [](std::size_t) { return 0.0; });
+            return s.advance(bodies, integrators::rule<integrators::leapfrog>{{damping}, {}, h, h}, {},
+                             {since, margins, stretch}, [](std::size_t) { return 0.0; });
         };
         CHECK(move() == margin_use::within);
         for (const moving_body& one : bodies) {

@@ -58,7 +58,7 @@ template <class P> engine_settings<P> one_law(const typename P::contact& law, do
                              .lateral_contact = law,
                              .breakage = {},
                              .replacement = {},
-                             .damping = damping},
+                             .scheme = {.damping = damping}},
                             threads);
 }
 

@@ -23,7 +23,7 @@ using rigid = scenes::unbreakable<>;
 TEST_CASE("the energy ledger of a collision closes, better with the square of the step") {
     const auto error = [](double safety, double damping) {
         auto s = scenes::settings<rigid>();
-        s.damping = damping;
+        s.scheme.damping = damping;
         s.safety = safety;
         engine<rigid> e = scenes::collision(s);
         while (e.time() < 0.02) e.step();

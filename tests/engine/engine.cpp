@@ -55,7 +55,7 @@ struct soft : rigid {
 
 TEST_CASE("two clumps that collide keep momentum and angular momentum to rounding, friction included") {
     auto s = scenes::settings<rigid>();
-    s.damping = 0.0;
+    s.scheme.damping = 0.0;
     engine<rigid> e = scenes::collision(s);
     const vec3 p = momentum(e.grains), l = angular_momentum(e.grains);
     double deepest = 0.0;
@@ -77,7 +77,7 @@ TEST_CASE("a contact law of plain doubles, without history, works and costs no m
                             .lateral_contact = law,
                             .breakage = {},
                             .replacement = {},
-                            .damping = 0.0,
+                            .scheme = {.damping = 0.0},
                             .safety = 0.05};
     engine<soft> e = scenes::collision(s);
     const vec3 p = momentum(e.grains);

@@ -100,7 +100,7 @@ TEST_CASE("a law that begins without stiffness gets a step that its first collis
                         .lateral_contact = {},
                         .breakage = {},
                         .replacement = {},
-                        .damping = 0.0,
+                        .scheme = {.damping = 0.0},
                         .safety = 0.2,
                         .largest_step = 1.0},
                        s, spaces::open{});

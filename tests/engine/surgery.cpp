@@ -87,7 +87,7 @@ TEST_CASE("at the swap no momentum, angular momentum, kinetic energy, mass or po
 TEST_CASE("clusters that collide keep momentum and angular momentum, and their contacts the histories") {
     auto s = scenes::settings<brittle>(1.0, 1e6);
     s.replacement.check_interval = 1;
-    s.damping = 0.0;
+    s.scheme.damping = 0.0;
     engine<brittle> e = scenes::collision(s, shapes::tetrahedron_4(0.02));
     engine<brittle> rigid = e;
     rigid.breakage_on = false;

@@ -20,7 +20,7 @@ scene<rigid> before_sweep(int threads) {
     auto s = scenes::settings<rigid>();
     s.run = execution(threads);
     s.contacts_per_thread = 8;
-    s.damping = 0.0;
+    s.scheme.damping = 0.0;
     auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(0.02), 40, 0.065, 2e5, 3000);
     scene<rigid> one = e.state();
     rooms::evaluate_walls(one, one.heavy_wall, one.dt, 0.0);
@@ -36,7 +36,7 @@ TEST_CASE("every body is looked at once, with all its forces and before it moves
         std::vector<int> looks(s.grains.body_count(), 0);
         std::vector<vec3> force(s.grains.body_count());
         std::size_t moved = 0;
-        (void)rooms::sweep(s, true, [&](std::size_t body, range_work& work) {
+        (void)rooms::sweep(s, {1.0, 1.0}, s.dt, true, [&](std::size_t body, range_work& work) {
             ++looks[body];
             force[body] = work.ready.back().load.force;
             moved += s.grains.motion[body].x != before.motion[body].x;
@@ -66,7 +66,7 @@ TEST_CASE("a sweep says when a body has used up its margin") {
     scene<rigid> s = before_sweep(1);
     const auto nobody = [](std::size_t, range_work&) {};
     scene<rigid> other = s;
-    CHECK(rooms::sweep(s, false, nobody) == margin_use::within);
+    CHECK(rooms::sweep(s, {1.0, 1.0}, s.dt, false, nobody) == margin_use::within);
     other.near.margins[5] = 0.0;
-    CHECK(rooms::sweep(other, false, nobody) == margin_use::used_up);
+    CHECK(rooms::sweep(other, {1.0, 1.0}, s.dt, false, nobody) == margin_use::used_up);
 }

@@ -28,7 +28,7 @@ vec3 momentum(const bodies::clumps& s) {
 
 TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen took the momentum") {
     auto s = scenes::settings<rigid>();
-    s.damping = 0.0;
+    s.scheme.damping = 0.0;
     s.safety = 0.05;
     bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
     sp.add(0, {0, 0, -0.18}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
@@ -50,7 +50,7 @@ TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen
 
 TEST_CASE("a platen that pushes a clump does the work that the clump receives") {
     auto s = scenes::settings<rigid>();
-    s.damping = 0.0;
+    s.scheme.damping = 0.0;
     s.safety = 0.05;
     bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
     s.safety = 0.05;

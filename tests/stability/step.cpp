@@ -22,7 +22,7 @@ double growth(double safety, double damping, int steps) {
     auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(0.02), 40, 0.065, 5e5, 8000);
     e.drives = {};
     for (int k = 0; k < 2000; ++k) e.step();
-    e.settings.damping = damping;
+    e.settings.scheme.damping = damping;
     e.settings.safety = safety;
     e.settings.largest_step = 1.0;
     for (std::size_t g = 0; g < e.grains.grain_count(); ++g)

@@ -49,7 +49,7 @@ template <class P> engine_settings<P> settings(double mu, double damping, double
             .lateral_contact = wall,
             .breakage = {},
             .replacement = {},
-            .damping = damping,
+            .scheme = {.damping = damping},
             .safety = 0.2,
             .skin = skin,
             .largest_step = 2e-5,

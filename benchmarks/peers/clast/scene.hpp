@@ -153,7 +153,7 @@ clast::engine_settings<P> settings(const scene& s, const Law& law, const Law& wa
             .lateral_contact = wall,
             .breakage = {},
             .replacement = replacement,
-            .damping = 0.0,
+            .scheme = {.damping = 0.0},
             .safety = 1.0,
             .skin = s.skin * s.mean_diameter(),
             .largest_step = s["dt"],

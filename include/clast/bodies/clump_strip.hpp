@@ -8,7 +8,7 @@
 
 #include <clast/core/lanes.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/integrators/local_damping.hpp>
+#include <clast/integrators/concepts.hpp>
 #include <clast/integrators/rotation.hpp>
 
 namespace clast {
@@ -20,6 +20,7 @@ struct clump_strip {
     using row = double[length];
 
     std::size_t size = 0;
+    std::size_t body[length];                        ///< numbers of the bodies
     alignas(64) row fx, fy, fz;                      ///< force (N)
     row mx, my, mz;                                  ///< moment about the centre (N m)
     row x, y, z, vx, vy, vz;                         ///< centre (m) and its velocity (m/s)
@@ -49,29 +50,42 @@ struct clump_strip {
 
 namespace detail {
 
-/// Kick and drift of lane k over h (s) with local damping; `advance_rotation` for steps of small angle.
-[[gnu::always_inline, gnu::flatten]] inline void advance_lane(clump_strip& s, std::size_t k, double h, double damping) {
+/// Kick and drift of lane k by a rule; `advance_rotation` for steps of small angle.
+template <class Rule>
+[[gnu::always_inline, gnu::flatten]] inline void advance_lane(clump_strip& s, std::size_t k, const Rule& rule) {
+    using scheme_type = decltype(rule.scheme);
     const quaternion q{s.qw[k], s.qx[k], s.qy[k], s.qz[k]};
     const mat3 turn = matrix(q), back = transpose(turn);
     const vec3 force{s.fx[k], s.fy[k], s.fz[k]}, moment{s.mx[k], s.my[k], s.mz[k]};
-    const vec3 v{s.vx[k], s.vy[k], s.vz[k]}, l{s.lx[k], s.ly[k], s.lz[k]};
+    const vec3 x{s.x[k], s.y[k], s.z[k]}, v{s.vx[k], s.vy[k], s.vz[k]}, l{s.lx[k], s.ly[k], s.lz[k]};
     const vec3 inverse{s.ix[k], s.iy[k], s.iz[k]};
     // damping of the force by components in the world frame, of the moment in the body frame
-    const vec3 df = damping_force(force, v, damping);
+    const vec3 df = rule.scheme.extra(force, rule.flow.relative(v, x));
     const vec3 w = back * vec3{s.wx[k], s.wy[k], s.wz[k]};
-    const vec3 dm = damping_force(back * moment, w, damping);
-    const vec3 faster = v + (h * s.inverse_mass[k]) * (force + df);
-    const vec3 more = l + h * (moment + turn * dm);
+    const vec3 dm = rule.scheme.extra(back * moment, w);
+    typename scheme_type::memory *of_v = nullptr, *of_l = nullptr;
+    if constexpr (!integrators::forgetful<scheme_type>)
+        of_v = &rule.memory[s.body[k]].translation, of_l = &rule.memory[s.body[k]].rotation;
+    const vec3 faster = rule.kicked(v, force + df, rule.kick * s.inverse_mass[k], of_v);
+    const vec3 more = rule.kicked(l, moment + turn * dm, rule.kick, of_l);
     const vec3 in_body = back * more;
-    s.damped[k] = -0.5 * h * (dot(df, v + faster) + dot(dm, w + scale(inverse, in_body)));
-    const vec3 spin = free_spin(in_body, inverse, h);
-    const quaternion next = renormalised(q * small_rotation(h * spin));
-    const vec3 world_spin = turn * spin;
-    const double largest = larger(inverse.x, larger(inverse.y, inverse.z));
-    s.angle2[k] = norm2(more) * (largest * largest * h * h);
+    s.damped[k] = -0.5 * rule.kick * (dot(df, v + faster) + dot(dm, w + scale(inverse, in_body)));
+    vec3 world_spin;
+    quaternion next;
+    if constexpr (integrators::turns_itself<scheme_type>) {
+        const turned t = rule.scheme.turn(q, more, inverse, rule.drift);
+        next = t.q, world_spin = t.spin;
+        s.angle2[k] = 0.0;
+    } else {
+        const vec3 spin = free_spin(in_body, inverse, rule.drift);
+        next = renormalised(q * small_rotation(rule.drift * spin));
+        world_spin = turn * spin;
+        const double largest = larger(inverse.x, larger(inverse.y, inverse.z));
+        s.angle2[k] = norm2(more) * (largest * largest * rule.drift * rule.drift);
+    }
     s.vx[k] = faster.x, s.vy[k] = faster.y, s.vz[k] = faster.z;
     s.lx[k] = more.x, s.ly[k] = more.y, s.lz[k] = more.z;
-    s.x[k] += h * faster.x, s.y[k] += h * faster.y, s.z[k] += h * faster.z;
+    s.x[k] += rule.drift * faster.x, s.y[k] += rule.drift * faster.y, s.z[k] += rule.drift * faster.z;
     s.wx[k] = world_spin.x, s.wy[k] = world_spin.y, s.wz[k] = world_spin.z;
     s.nw[k] = next.w, s.nx[k] = next.x, s.ny[k] = next.y, s.nz[k] = next.z;
 }
@@ -87,34 +101,35 @@ namespace detail {
     s.r20[k] = m.row[2].x, s.r21[k] = m.row[2].y, s.r22[k] = m.row[2].z;
 }
 
-[[gnu::always_inline]] inline void advance_lanes(clump_strip& s, double h, double damping) {
-    const std::size_t n = s.lanes();
+/// f(k) for the first n lanes, side by side.
+template <class F> [[gnu::always_inline]] inline void each_lane_of(std::size_t n, F&& f) {
 #if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD)
 #pragma omp simd
 #endif
-    for (std::size_t k = 0; k < n; ++k) advance_lane(s, k, h, damping);
-}
-[[gnu::always_inline]] inline void finish_lanes(clump_strip& s) {
-    const std::size_t n = s.lanes();
-#if defined(_OPENMP) || defined(CLAST_OPENMP_SIMD)
-#pragma omp simd
-#endif
-    for (std::size_t k = 0; k < n; ++k) finish_lane(s, k);
+    for (std::size_t k = 0; k < n; ++k) f(k);
 }
 } // namespace detail
 
-/// Moves the clumps of a strip by one step h (s) under their loads, with local damping of force and moment.
-[[gnu::noinline, gnu::flatten]] inline void advance(clump_strip& s, double h, double damping) {
-    with_widest_registers([&s, h, damping ](auto)
-                              __attribute__((always_inline)) { detail::advance_lanes(s, h, damping); });
+/// Moves the clumps of a strip by a rule (integrators/concepts.hpp) under their loads.
+template <class Rule> [[gnu::noinline, gnu::flatten]] void advance(clump_strip& s, const Rule rule) {
+    // by whole eights, unless a lane that repeats a body would spoil what the scheme remembers of it
+    constexpr bool in_eights = integrators::forgetful<decltype(rule.scheme)>;
+    with_widest_registers([&s, rule ](auto) __attribute__((always_inline)) {
+        detail::each_lane_of(
+            in_eights ? s.lanes() : s.size, [&](std::size_t k)
+                                                __attribute__((always_inline)) { detail::advance_lane(s, k, rule); });
+    });
     for (std::size_t k = 0; k < s.size; ++k) {
         if (s.angle2[k] < small_step2) continue;
         const turned t = advance_rotation({s.qw[k], s.qx[k], s.qy[k], s.qz[k]}, {s.lx[k], s.ly[k], s.lz[k]},
-                                          {s.ix[k], s.iy[k], s.iz[k]}, h); // rare: the full method, one by one
+                                          {s.ix[k], s.iy[k], s.iz[k]}, rule.drift); // rare: the full method, one by one
         s.nw[k] = t.q.w, s.nx[k] = t.q.x, s.ny[k] = t.q.y, s.nz[k] = t.q.z;
         s.wx[k] = t.spin.x, s.wy[k] = t.spin.y, s.wz[k] = t.spin.z;
     }
-    with_widest_registers([&s](auto) __attribute__((always_inline)) { detail::finish_lanes(s); });
+    with_widest_registers([&s](auto) __attribute__((always_inline)) {
+        detail::each_lane_of(
+            s.lanes(), [&](std::size_t k) __attribute__((always_inline)) { detail::finish_lane(s, k); });
+    });
 }
 
 } // namespace clast

@@ -152,11 +152,11 @@ struct clumps {
     double surface_speed(std::size_t g, const vec3& rate) const {
         return norm(motion[g].v - scale(rate, motion[g].x)) + bounding_radius(g) * norm(motion[g].w);
     }
-    /// Moves bodies by one step h (s) under their loads, with local damping of force and moment (in the body frame),
-    /// and places those of their pebbles that are `wanted`. further(body): way (m) to be added to that of a body when
+    /// Moves bodies under their loads by a rule (integrators/concepts.hpp), and places those of their pebbles that are
+    /// `wanted`. further(body): way (m) to be added to that of a body when
     /// it is held against the allowance. Returns what the most mobile body has used of its own.
-    template <class Further>
-    margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items& wanted,
+    template <class Rule, class Further>
+    margin_use advance(std::span<const moving_body> bodies, const Rule& rule, const body_items& wanted,
                        const allowance<reference>& allowed, Further&& further) {
         margin_use use = margin_use::within;
         clump_strip s;
@@ -167,7 +167,7 @@ struct clumps {
             const vec3 stretch = allowed.stretch;
             with_widest_registers([ =, this, &s ](auto width)
                                       __attribute__((always_inline)) { this->fill(width, s, some, since, stretch); });
-            clast::advance(s, h, damping);
+            clast::advance(s, rule);
             with_widest_registers([ =, this, &s, &wanted ](auto width) __attribute__((always_inline)) {
                 for (std::size_t k = 0; k < s.size; k += 4) {
                     axes_of_four axes;
@@ -252,6 +252,7 @@ struct clumps {
                 load[l] = bytes_of(one.load), move[l] = bytes_of(motion[g]), turn[l] = bytes_of(turning[g]);
                 then[l] = bytes_of(since[g]), common[l] = bytes_of(c);
                 reach[l] = c.reach;
+                s.body[k + l] = g;
             }
             row r[4];
             const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,

@@ -11,6 +11,8 @@
 
 #include <clast/bodies/contact_list.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/integrators/concepts.hpp>
+#include <clast/integrators/leapfrog.hpp>
 
 namespace clast {
 
@@ -61,8 +63,7 @@ namespace bodies {
 
 /// What an engine sweeps: bodies::clumps (which may break) or bodies::spheres.
 template <class S>
-concept swept = std::movable<S> &&
-    requires(S& s, const S& c, std::size_t b, vec3 x, double h, const body_items& wanted) {
+concept swept = std::movable<S> && requires(S& s, const S& c, std::size_t b, vec3 x, const body_items& wanted) {
     { S::turns } -> std::convertible_to<bool>;
     { c.body_count() } -> std::same_as<std::size_t>;
     { c.movable_count() } -> std::same_as<std::size_t>;
@@ -83,8 +84,8 @@ concept swept = std::movable<S> &&
     { c.moved(b, c.refer(b), x) } -> std::same_as<double>;
     { c.surface_speed(b, x) } -> std::same_as<double>;
     {
-        s.advance(std::span<const moving_body>{}, h, h, wanted, allowance<typename S::reference>{},
-                  [](std::size_t) { return 0.0; })
+        s.advance(std::span<const moving_body>{}, integrators::rule<integrators::leapfrog>{}, wanted,
+                  allowance<typename S::reference>{}, [](std::size_t) { return 0.0; })
         } -> std::same_as<margin_use>;
     s.place(b);
     s.place(b, std::span<const std::int32_t>{});

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <clast/bodies/concepts.hpp>
@@ -13,7 +15,7 @@
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/grains/shape.hpp>
-#include <clast/integrators/local_damping.hpp>
+#include <clast/integrators/concepts.hpp>
 
 namespace clast::bodies {
 
@@ -77,11 +79,11 @@ struct spheres {
         return norm(pebbles[b].v - scale(rate, pebbles[b].x)); // to spin brings a sphere no nearer
     }
     /// As for clumps; there is no pebble to be placed, and `further` is not asked.
-    template <class Further>
-    margin_use advance(std::span<const moving_body> bodies, double h, double damping, const body_items&,
+    template <class Rule, class Further>
+    margin_use advance(std::span<const moving_body> bodies, const Rule& rule, const body_items&,
                        const allowance<reference>& allowed, Further&&) {
         return with_widest_registers([ =, this, &allowed ](auto width) __attribute__((always_inline)) {
-            return this->move(width, bodies, h, damping, allowed);
+            return this->move(width, bodies, rule, allowed);
         });
     }
     void place(std::size_t) {}
@@ -96,10 +98,13 @@ struct spheres {
     template <class A> void archive(A& a) { a(density, pebbles, losses); }
 
   private:
-    template <std::size_t N, std::size_t Loop>
-    [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies, double h,
-                                           double damping, const allowance<reference>& allowed) {
-        using row = quad<N>;
+    /// In whole records of four numbers where the scheme takes them, else in vectors.
+    template <std::size_t N, std::size_t Loop, class Rule>
+    [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies,
+                                           const Rule& rule, const allowance<reference>& allowed) {
+        using scheme_type = decltype(rule.scheme);
+        using row = std::conditional_t < requires(const scheme_type s, quad<N> q) { s.extra(q, q); }
+        , quad<N>, four_numbers > ;
         const auto dot = [](const row& a, const row& b) __attribute__((always_inline)) {
             return clast::dot(vec3{a[0], a[1], a[2]}, vec3{b[0], b[1], b[2]});
         };
@@ -109,20 +114,25 @@ struct spheres {
         const vec3 stretch = allowed.stretch;
         const double* const margins = allowed.margins.data();
         const reference* const since = allowed.since.data();
+        const bool damped = integrators::damps(rule.scheme);
         margin_use use = margin_use::within;
         for (const moving_body& one : bodies) {
             pebble_motion& p = all[one.body];
             body_losses& lost = all_losses[one.body];
             const row x0 = row::load(&p.x), v0 = row::load(&p.v), w0 = row::load(&p.w);
-            row force = row::load(&one.load.force), moment = row::load(&one.load.moment), df, dm;
+            row force = row::load(&one.load.force), moment = row::load(&one.load.moment), df = force, dm = moment;
             lost.friction += one.load.dissipated;
-            if (damping != 0.0) {
-                df = damping_force(force, v0, damping), dm = damping_force(moment, w0, damping);
-                force += df, moment += dm;
+            if (damped) {
+                df = rule.scheme.extra(force, rule.flow.relative(v0, x0)), dm = rule.scheme.extra(moment, w0);
+                force = force + df, moment = moment + dm;
             }
-            const row v = v0 + (h * p.inverse_mass) * force, w = w0 + (h * p.inverse_inertia) * moment;
-            if (damping != 0.0) lost.damping -= 0.5 * h * (dot(df, v0 + v) + dot(dm, w0 + w));
-            const row x = x0 + h * v;
+            typename scheme_type::memory *of_v = nullptr, *of_w = nullptr;
+            if constexpr (!integrators::forgetful<scheme_type>)
+                of_v = &rule.memory[one.body].translation, of_w = &rule.memory[one.body].rotation;
+            const row v = rule.kicked(v0, force, rule.kick * p.inverse_mass, of_v);
+            const row w = rule.kicked(w0, moment, rule.kick * p.inverse_inertia, of_w);
+            if (damped) lost.damping -= 0.5 * rule.kick * (dot(df, v0 + v) + dot(dm, w0 + w));
+            const row x = x0 + rule.drift * v;
             x.with_fourth_of(x0).store(&p.x), v.with_fourth_of(v0).store(&p.v), w.with_fourth_of(w0).store(&p.w);
             const double margin = margins[one.body];
             const vec3 way = vec3{x[0], x[1], x[2]} - scale(stretch, since[one.body].centre);
@@ -130,6 +140,22 @@ struct spheres {
         }
         return use;
     }
+    /// A record as a vector and its fourth number, for schemes that take vectors.
+    struct four_numbers : vec3 {
+        double fourth = 0.0;
+
+        four_numbers(const vec3& a, double w = 0.0) : vec3(a), fourth(w) {}
+        static four_numbers load(const void* from) {
+            double of[4];
+            std::memcpy(of, from, sizeof of);
+            return {{of[0], of[1], of[2]}, of[3]};
+        }
+        void store(void* to) const {
+            const double of[4] = {x, y, z, fourth};
+            std::memcpy(to, of, sizeof of);
+        }
+        four_numbers with_fourth_of(const four_numbers& b) const { return {*this, b.fourth}; }
+    };
 };
 
 static_assert(swept<spheres>);

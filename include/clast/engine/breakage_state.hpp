@@ -46,7 +46,7 @@ struct breakage_state {
     /// For clumps that are complete; their table of motion gets room for a ball per pebble.
     template <class Settings> void begin(bodies::clumps& g, const Settings& s) {
         for (const shape& one : g.shapes)
-            pools.emplace_back(bonds::lattice(one, s.replacement.bond, g.density), s.damping);
+            pools.emplace_back(bonds::lattice(one, s.replacement.bond, g.density), s.scheme.damping);
         members.resize(g.shapes.size());
         bonded.assign(g.pebble_count(), 0);
         halo.assign(g.grain_count(), 0);

@@ -39,6 +39,7 @@ template <simulator_policies P> class engine : private scene<P> {
     using typename scene_type::boundary_type;
     using typename scene_type::contact;
     using typename scene_type::history;
+    using typename scene_type::scheme_type;
     using typename scene_type::space_type;
     using typename scene_type::wall_row;
     using settings_type = engine_settings<P>;
@@ -142,6 +143,7 @@ template <simulator_policies P> class engine : private scene<P> {
                                   "Take hertz_contact with the nominal radius (its default).");
         }
         s.broken.begin(grains, settings);
+        s.memory.resize(grains.body_count());
         s.smallest_mass = grains.smallest_mass();
         s.smallest_radius = smallest_radius();
         s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
@@ -165,22 +167,36 @@ template <simulator_policies P> class engine : private scene<P> {
         rooms::estimate_light_steps(own());
     }
 
+    /// One evaluation of forces, and the motion that follows from it. since: span since the last one (s).
+    margin_use one_stage(const integrators::stage& stage, double since, bool keep_rows, bool last_of_many) {
+        scene_type& s = own();
+        const double span = stage.drift * s.dt;
+        rooms::advance_light_bodies(s);
+        rooms::evaluate_walls(s, s.heavy_wall, since, 0.0);
+        rooms::control_walls(s, span);
+        const bool space_looks = space.looks(s.totals.steps, keep_rows, last_of_many);
+        const bool criterion_looks = rooms::looks_at_clumps(s);
+        if (criterion_looks) s.index_heavy();
+        const margin_use use = rooms::sweep(s, stage, since, keep_rows || space_looks || criterion_looks,
+                                            rooms::marks_critical(s, criterion_looks));
+        space.end_sweep(s, space_looks);
+        rooms::advance_walls(s, span);
+        rooms::bring_balls_to_step(s);
+        return use;
+    }
+
     /// keep_rows: for those who look after the step; last_of_many: what is looked at now and then only was left out.
     void one_step(bool keep_rows, bool last_of_many) {
         scene_type& s = own();
         if (s.near.must_search || s.near.must_renew) rooms::renew_lists(s);
         if (s.estimate_due || s.totals.steps % step_interval == 0) estimate(false);
-        rooms::advance_light_bodies(s);
-        rooms::evaluate_walls(s, s.heavy_wall, s.dt, 0.0);
-        rooms::control_walls(s);
-        const bool space_looks = space.looks(s.totals.steps, keep_rows, last_of_many);
-        const bool criterion_looks = rooms::looks_at_clumps(s);
-        if (criterion_looks) s.index_heavy();
-        const margin_use use =
-            rooms::sweep(s, keep_rows || space_looks || criterion_looks, rooms::marks_critical(s, criterion_looks));
-        space.end_sweep(s, space_looks);
-        rooms::advance_walls(s);
-        rooms::bring_balls_to_step(s);
+        margin_use use = margin_use::within;
+        double since = scheme_type::stages.back().drift * s.dt;
+        for (std::size_t k = 0; k < scheme_type::stages.size(); ++k) {
+            const bool last = k + 1 == scheme_type::stages.size();
+            use = std::max(use, one_stage(scheme_type::stages[k], since, last && keep_rows, last && last_of_many));
+            since = scheme_type::stages[k].drift * s.dt;
+        }
         rooms::replace_marked(s);
         s.totals.time += s.dt;
         ++s.totals.steps;

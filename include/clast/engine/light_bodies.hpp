@@ -21,7 +21,6 @@
 #include <clast/engine/step_limit.hpp>
 #include <clast/engine/surgery.hpp>
 #include <clast/engine/walls.hpp>
-#include <clast/integrators/local_damping.hpp>
 
 namespace clast::rooms {
 
@@ -96,11 +95,11 @@ template <class S> void advance_ball(S& s, std::int32_t pebble, double h) {
     const std::size_t p = s.at(pebble), b = s.grains.ball(pebble);
     body_motion& m = s.grains.motion[b];
     const load_sum sum = sum_light(s, b, s.position(pebble), 0.0);
-    const vec3 df = damping_force(sum.force, m.v, s.settings.damping);
-    const vec3 dm = damping_force(sum.moment, m.w, s.settings.damping);
+    const auto& scheme = s.settings.scheme;
+    const vec3 df = scheme.extra(sum.force, m.v), dm = scheme.extra(sum.moment, m.w);
     const vec3 v = m.v, w = m.w;
-    m.v += (h / s.grains.ball_mass(p)) * (sum.force + df);
-    m.w += (h / s.grains.ball_inertia(p)) * (sum.moment + dm);
+    m.v = scheme.kick(v, sum.force + df, h / s.grains.ball_mass(p));
+    m.w = scheme.kick(w, sum.moment + dm, h / s.grains.ball_inertia(p));
     m.x += 0.5 * h * (v + m.v);
     s.grains.losses[b].damping -= 0.5 * h * (dot(df, v + m.v) + dot(dm, w + m.w));
     s.grains.losses[b].friction += sum.dissipated;

@@ -13,6 +13,8 @@
 #include <clast/criteria/concepts.hpp>
 #include <clast/criteria/nominal_force.hpp>
 #include <clast/criteria/none.hpp>
+#include <clast/integrators/concepts.hpp>
+#include <clast/integrators/leapfrog.hpp>
 #include <clast/replacements/concepts.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
@@ -33,16 +35,17 @@ struct triaxial_policies_default {
     using search = searches::cell_grid;
     using body = bodies::clumps; // or bodies::spheres, which never break
     using space = spaces::open;
+    using scheme = integrators::leapfrog; // integrator and damping
 };
 
 /// A complete bundle, as an engine uses it. A policy that is missing or does not satisfy its own concept is named by
 /// the compiler.
 template <class P>
 concept simulator_policies = contacts::contact_law<typename P::contact> &&
-                             replacements::replacement<typename P::replacement> &&
-                             criteria::criterion<typename P::breakage> && boundaries::surface<typename P::boundary> &&
-                             searches::search<typename P::search> && bodies::swept<typename P::body> &&
-                             spaces::space<typename P::space> &&(P::body::turns || !P::replacement::makes_bonds) &&
-                             !(P::space::has_images && P::replacement::makes_bonds);
+    replacements::replacement<typename P::replacement> && criteria::criterion<typename P::breakage> &&
+    boundaries::surface<typename P::boundary> && searches::search<typename P::search> &&
+    bodies::swept<typename P::body> && spaces::space<typename P::space> && integrators::scheme<typename P::scheme> &&
+    (!P::replacement::makes_bonds ||
+     (P::body::turns && !P::space::has_images && integrators::multirate<typename P::scheme>));
 
 } // namespace clast

@@ -33,10 +33,10 @@ template <simulator_policies P> struct engine_settings {
     typename P::contact lateral_contact; ///< pebble against the lateral wall
     typename P::breakage breakage;
     typename P::replacement replacement;
-    double damping = 0.7;       ///< local damping coefficient in [0, 1)
-    double safety = 0.8;        ///< of the time-step estimate, in (0, 1]
-    double skin = 0.0;          ///< m: where the skin of the lists starts; 0: from the size of the grains
-    double largest_step = 1e-4; ///< s: bound of the time step where nothing touches
+    typename P::scheme scheme{}; ///< how bodies go on, and local damping
+    double safety = 0.8;         ///< of the time-step estimate, in (0, 1]
+    double skin = 0.0;           ///< m: where the skin of the lists starts; 0: from the size of the grains
+    double largest_step = 1e-4;  ///< s: bound of the time step where nothing touches
     /// Of the smallest radius: least overlap at which a law is asked for its stiffness where nothing touches.
     double expected_overlap = 1e-4;
     execution run = execution(1);
@@ -108,6 +108,14 @@ template <simulator_policies P> struct scene {
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
     using wall_row = boundaries::wall_row;
+    using scheme_type = typename P::scheme;
+    using rule_type = integrators::rule<scheme_type, typename space_type::flow_type>;
+    /// What a scheme keeps of every body, if anything.
+    struct no_memory {
+        static constexpr integrators::body_memory<scheme_type>* data() { return nullptr; }
+        static constexpr void resize(std::size_t) {}
+        template <class A> void archive(A&) {}
+    };
     static constexpr bool breakable = P::replacement::makes_bonds;
     static constexpr bool has_criterion = P::breakage::evaluated;
 
@@ -127,6 +135,10 @@ template <simulator_policies P> struct scene {
     body_items unlisted; ///< the others
     neighbour_state<body_type, space_type> near;
     [[no_unique_address]] std::conditional_t<breakable, breakage_state, unbroken> broken;
+
+    [[no_unique_address]] std::conditional_t<integrators::forgetful<scheme_type>, no_memory,
+                                             std::vector<integrators::body_memory<scheme_type>>>
+        memory; ///< per body
 
     engine_totals totals;
     double dt = 0.0;     ///< s
@@ -230,7 +242,7 @@ template <simulator_policies P> struct scene {
         a(grains, boundary, space, settings.grain_contact, breakage_on, totals, dt, light_steps, estimate_due);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted);
+        a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted, memory);
         broken.archive(a);
     }
 };

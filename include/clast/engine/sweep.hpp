@@ -54,13 +54,6 @@ template <class S> struct heavy_job {
         }
     }
 };
-/// Evaluates some heavy contacts. across: crossings.from(rows.begin); returns that of rows.end.
-template <class S> std::size_t evaluate_heavy(S& s, index_range rows, std::size_t across, bool keep) {
-    return evaluate(s.heavy, rows, s.grains.view(), s.settings.grain_contact, s.dt,
-                    heavy_job<S>{s, across, across, rows.begin < s.heavy.shared, keep ? s.heavy.rows.data() : nullptr})
-        .taken;
-}
-
 /// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and wall
 /// rows that come next. Inlined by force: it has few instructions, and is called for every body in every step.
 template <class S>
@@ -78,17 +71,30 @@ template <class S>
     s.broken.add_halo_load(body, load);
     return load;
 }
-template <class S> void move_ready(S& s, range_work& work, const vec3& stretch) {
+/// What a pass over all bodies goes by.
+template <class S> struct sweep_pass {
+    typename S::rule_type rule; ///< how bodies go on
+    double since;               ///< span since contacts were evaluated last (s)
+    vec3 stretch;               ///< of the space since the lists were renewed
+    bool keep;                  ///< rows of contacts are kept
+};
+/// Evaluates some heavy contacts. across: crossings.from(rows.begin); returns that of rows.end.
+template <class S> std::size_t evaluate_heavy(S& s, index_range rows, std::size_t across, const sweep_pass<S>& pass) {
+    force_row* const kept = pass.keep ? s.heavy.rows.data() : nullptr;
+    return evaluate(s.heavy, rows, s.grains.view(), s.settings.grain_contact, pass.since,
+                    heavy_job<S>{s, across, across, rows.begin < s.heavy.shared, kept})
+        .taken;
+}
+template <class S> void move_ready(S& s, range_work& work, const sweep_pass<S>& pass) {
     using allowed = allowance<typename S::body_type::reference>;
     // light contacts see a clump along its velocity, half a step ahead
     const auto ahead = [&](std::size_t body) { return s.broken.way_ahead(s.grains, body, s.dt); };
-    work.use =
-        std::max(work.use, s.grains.advance(std::span<const moving_body>(work.ready), s.dt, s.settings.damping,
-                                            s.listed, allowed{s.near.since.bodies, s.near.margins, stretch}, ahead));
+    work.use = std::max(work.use, s.grains.advance(std::span<const moving_body>(work.ready), pass.rule, s.listed,
+                                                   allowed{s.near.since.bodies, s.near.margins, pass.stretch}, ahead));
     work.ready.clear();
 }
 template <class S, class Look>
-void sweep_range(S& s, const body_range& r, range_work& work, bool keep, const vec3& stretch, Look&& look) {
+void sweep_range(S& s, const body_range& r, range_work& work, const sweep_pass<S>& pass, Look&& look) {
     for (std::uint32_t k : r.incoming) s.shared_load[k].add_to_j(s.acting[s.grains.body_of(s.heavy.pairs[k].j)]);
     std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
     std::size_t across = s.crossings.from(row);
@@ -98,26 +104,32 @@ void sweep_range(S& s, const body_range& r, range_work& work, bool keep, const v
             if (s.grains.is_swept(body)) {
                 work.ready.push_back({body, complete_load(s, body, shared, wall)});
                 look(body, work);
-                if (work.ready.size() == clump_strip::length) move_ready(s, work, stretch);
+                if (work.ready.size() == clump_strip::length) move_ready(s, work, pass);
             }
         if (row == r.rows.end) break;
         const std::size_t end = std::min(row + rows_at_once, r.rows.end);
-        across = evaluate_heavy(s, {row, end}, across, keep);
+        across = evaluate_heavy(s, {row, end}, across, pass);
         row = end;
     }
-    move_ready(s, work, stretch);
+    move_ready(s, work, pass);
 }
 
-/// Evaluates all heavy contacts and moves all heavy bodies. keep: rows of contacts are kept. look(body, range_work): is
-/// called for every body when its loads are complete and before it moves, by the thread that sweeps it.
-template <class S, class Look> margin_use sweep(S& s, bool keep, Look&& look) {
+/// Evaluates all heavy contacts and moves all heavy bodies, in one stage of the scheme. since: span since contacts were
+/// evaluated last (s). keep: rows of contacts are kept. look(body, range_work): is called for every body when its loads
+/// are complete and before it moves, by the thread that sweeps it.
+template <class S, class Look>
+margin_use sweep(S& s, const integrators::stage& stage, double since, bool keep, Look&& look) {
     s.space.begin_sweep(s);
     if (keep) s.heavy.rows.resize(s.heavy.size());
+    const sweep_pass<S> pass{
+        {s.settings.scheme, s.space.flow(), stage.kick * s.dt, stage.drift * s.dt, s.memory.data()},
+        since,
+        s.space.stretch_since(s.near.since.frame),
+        keep};
     each_chunk(s.settings.run, s.heavy.shared,
-               [&](index_range some) { evaluate_heavy(s, some, s.crossings.from(some.begin), keep); });
-    const vec3 stretch = s.space.stretch_since(s.near.since.frame);
+               [&](index_range some) { evaluate_heavy(s, some, s.crossings.from(some.begin), pass); });
     s.settings.run.for_each(
-        s.ranges.size(), [&](std::size_t r) { sweep_range(s, s.ranges[r], s.sweeping[r], keep, stretch, look); }, 1);
+        s.ranges.size(), [&](std::size_t r) { sweep_range(s, s.ranges[r], s.sweeping[r], pass, look); }, 1);
     margin_use use = margin_use::within;
     for (const range_work& r : s.sweeping) use = std::max(use, r.use);
     return use;

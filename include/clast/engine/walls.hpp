@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -93,8 +94,9 @@ void add_loads(const S& s, const std::vector<boundaries::wall_row>& wall, double
     }
 }
 
-/// Loads of this step, the mean of sub-steps included, and the velocities that the boundary takes on from them.
-template <class S> void control_walls(S& s) {
+/// Loads of this step, the mean of sub-steps included, and the velocities that the boundary takes on from them for the
+/// span that it is about to go (s).
+template <class S> void control_walls(S& s, double span) {
     if (s.broken.has_balls())
         s.loads = s.light_loads;
     else
@@ -102,14 +104,14 @@ template <class S> void control_walls(S& s) {
     add_loads(s, s.heavy_wall, 1.0, s.loads, &s.couplings);
     // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
     const double power = s.boundary.power(s.loads);
-    s.boundary.control(s.loads, s.drives, s.dt, s.couplings);
-    s.totals.boundary_work += 0.5 * (power + s.boundary.power(s.loads)) * s.dt;
+    s.boundary.control(s.loads, s.drives, span, s.couplings);
+    s.totals.boundary_work += 0.5 * (power + s.boundary.power(s.loads)) * span;
 }
-/// Walls and space go on by one step.
-template <class S> void advance_walls(S& s) {
-    s.boundary.advance(s.dt);
-    s.space.advance(s.dt);
-    count_wall_travel(s, s.boundary.fastest() * s.dt);
+/// Walls and space go on by a span (s).
+template <class S> void advance_walls(S& s, double span) {
+    s.boundary.advance(span);
+    s.space.advance(span);
+    count_wall_travel(s, s.boundary.fastest() * std::abs(span));
 }
 
 } // namespace clast::rooms

@@ -261,7 +261,7 @@ template <triaxial_policies P> class triaxial_test {
                           .lateral_contact = s.materials.at_membrane(),
                           .breakage = s.breakage,
                           .replacement = s.replacement,
-                          .damping = s.damping,
+                          .scheme = {.damping = s.damping},
                           .safety = s.safety,
                           .run = execution(s.threads)},
                          std::move(sp), boundary_type(vessel));

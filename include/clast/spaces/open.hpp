@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <clast/core/vector.hpp>
+#include <clast/integrators/concepts.hpp>
 #include <clast/spaces/concepts.hpp>
 #include <clast/spaces/crossings.hpp>
 
@@ -15,6 +16,7 @@ namespace clast::spaces {
 struct open {
     static constexpr bool has_images = false;
     using crossings = no_crossings;
+    using flow_type = integrators::no_flow;
     /// What displacements count from: nothing.
     struct frame {
         template <class A> void archive(A&) {}
@@ -23,6 +25,7 @@ struct open {
     static constexpr frame here() { return {}; }
     static constexpr vec3 stretch_since(const frame&) { return {1.0, 1.0, 1.0}; }
     static constexpr vec3 rates() { return {}; }
+    static constexpr flow_type flow() { return {}; }
     static constexpr double travel(const vec3&, double) { return 0.0; }
     static constexpr double room(double) { return std::numeric_limits<double>::infinity(); }
     static constexpr vec3 across(const vec3& x, std::uint8_t) { return x; }

@@ -12,6 +12,7 @@
 #include <clast/contacts/concepts.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/integrators/concepts.hpp>
 #include <clast/spaces/concepts.hpp>
 #include <clast/spaces/crossings.hpp>
 #include <clast/spaces/images.hpp>
@@ -34,6 +35,7 @@ class periodic {
     static constexpr bool has_images = true;
     static constexpr int look = 10; ///< steps between two looks at the stress
     using crossings = spaces::crossings;
+    using flow_type = integrators::no_flow;
     /// What displacements count from.
     struct frame {
         vec3 edges; ///< m
@@ -70,6 +72,7 @@ class periodic {
         const vec3 speeds = edge_speeds();
         return {speeds.x / edges_.x, speeds.y / edges_.y, speeds.z / edges_.z};
     }
+    static constexpr flow_type flow() { return {}; }
     /// Those farther apart than `reach` come nearer by more, but not by all that they are farther apart.
     static double travel(const vec3& strain, double reach) {
         return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * reach;

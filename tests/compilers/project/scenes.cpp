@@ -86,7 +86,7 @@ struct spheres {
                             .lateral_contact = law,
                             .breakage = {},
                             .replacement = {},
-                            .damping = 0.0,
+                            .scheme = {.damping = 0.0},
                             .safety = 0.4,
                             .run = execution(threads),
                             .contacts_per_thread = 8},
