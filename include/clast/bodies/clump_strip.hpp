@@ -60,7 +60,7 @@ template <class Rule>
     const vec3 x{s.x[k], s.y[k], s.z[k]}, v{s.vx[k], s.vy[k], s.vz[k]}, l{s.lx[k], s.ly[k], s.lz[k]};
     const vec3 inverse{s.ix[k], s.iy[k], s.iz[k]};
     // damping of the force by components in the world frame, of the moment in the body frame
-    const vec3 df = rule.scheme.extra(force, rule.flow.relative(v, x));
+    const vec3 df = rule.scheme.extra(force, rule.flow.relative(v, x, rule.drift));
     const vec3 w = back * vec3{s.wx[k], s.wy[k], s.wz[k]};
     const vec3 dm = rule.scheme.extra(back * moment, w);
     typename scheme_type::memory *of_v = nullptr, *of_l = nullptr;

@@ -123,7 +123,8 @@ struct spheres {
             row force = row::load(&one.load.force), moment = row::load(&one.load.moment), df = force, dm = moment;
             lost.friction += one.load.dissipated;
             if (damped) {
-                df = rule.scheme.extra(force, rule.flow.relative(v0, x0)), dm = rule.scheme.extra(moment, w0);
+                df = rule.scheme.extra(force, rule.flow.relative(v0, x0, rule.drift)),
+                dm = rule.scheme.extra(moment, w0);
                 force = force + df, moment = moment + dm;
             }
             typename scheme_type::memory *of_v = nullptr, *of_w = nullptr;

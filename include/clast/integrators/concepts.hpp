@@ -79,7 +79,7 @@ template <class S> struct body_memory { typename S::memory translation{}, rotati
 
 /// A space without a mean flow.
 struct no_flow {
-    template <class V> static constexpr const V& relative(const V& v, const V&) { return v; }
+    template <class V> static constexpr const V& relative(const V& v, const V&, double) { return v; }
 };
 
 /// How bodies go on: a scheme, the flow that it sees velocities in, and the spans of kick and drift (s). memory: per

@@ -12,7 +12,7 @@ namespace clast::spaces {
 /// A space says whether bodies have images, and how it deforms:
 /// - `frame here()`: from which displacements count; `stretch_since(frame)`: edges over those of then;
 /// - `rates()`: of extension along the axes (1/s), of a mean flow with the velocity rates * x;
-/// - `flow_type flow()`: `relative(v, x)`, the velocity beside that flow (integrators/concepts.hpp);
+/// - `flow_type flow()`: `relative(v, x, h)`, the velocity beside that flow (integrators/concepts.hpp);
 /// - `travel(strain, reach)`: how much nearer (m, or m/s for a rate) a strain brings two grains a reach (m) apart;
 /// - `room(widest)`: the widest margin (m) for which there is room between grains of this diameter (m);
 /// - `across(x, image)`: where the image of a point is (m);
@@ -26,7 +26,7 @@ concept space = std::copyable<S> && std::default_initializable<typename S::cross
     { c.stretch_since(since) } -> std::same_as<vec3>;
     { c.rates() } -> std::same_as<vec3>;
     { c.flow() } -> std::same_as<typename S::flow_type>;
-    { c.flow().relative(strain, strain) } -> std::convertible_to<vec3>;
+    { c.flow().relative(strain, strain, length) } -> std::convertible_to<vec3>;
     { c.travel(strain, length) } -> std::same_as<double>;
     { c.room(length) } -> std::same_as<double>;
     { c.across(strain, image) } -> std::same_as<vec3>;

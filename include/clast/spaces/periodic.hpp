@@ -11,6 +11,7 @@
 
 #include <clast/contacts/concepts.hpp>
 #include <clast/core/errors.hpp>
+#include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/integrators/concepts.hpp>
 #include <clast/spaces/concepts.hpp>
@@ -19,9 +20,24 @@
 
 namespace clast::spaces {
 
+/// The affine flow of a cell: v = rates x.
+struct mean_flow {
+    vec3 rates; ///< 1/s
+
+    /// Velocity of a step of h (s) beside the flow where it led through; x: where it ended.
+    [[gnu::always_inline]] vec3 relative(const vec3& v, const vec3& x, double h) const {
+        return v - scale(rates, x - (0.5 * h) * v);
+    }
+    template <std::size_t N>
+    [[gnu::always_inline]] quad<N> relative(const quad<N>& v, const quad<N>& x, double h) const {
+        return v - quad<N>(rates.x, rates.y, rates.z, 0.0) * (x - (0.5 * h) * v);
+    }
+};
+
 /// Periodic cell along the axes, centred on the origin. Grains are moved by their velocities only; an image moves with
 /// the velocity of the edge that it lies beyond, and a grain that leaves through a face enters by the other with the
-/// velocity of that image. Velocities are total ones: start a homogeneous flow with v = rate * x.
+/// velocity of that image. Velocities are total ones: start a homogeneous flow with v = rate * x. Damping sees them
+/// beside that flow.
 class periodic {
   public:
     /// Along one axis: a rate of extension, or a servo to a stress.
@@ -35,7 +51,7 @@ class periodic {
     static constexpr bool has_images = true;
     static constexpr int look = 10; ///< steps between two looks at the stress
     using crossings = spaces::crossings;
-    using flow_type = integrators::no_flow;
+    using flow_type = mean_flow;
     /// What displacements count from.
     struct frame {
         vec3 edges; ///< m
@@ -72,7 +88,7 @@ class periodic {
         const vec3 speeds = edge_speeds();
         return {speeds.x / edges_.x, speeds.y / edges_.y, speeds.z / edges_.z};
     }
-    static constexpr flow_type flow() { return {}; }
+    flow_type flow() const { return {rates()}; }
     /// Those farther apart than `reach` come nearer by more, but not by all that they are farther apart.
     static double travel(const vec3& strain, double reach) {
         return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)}) * reach;
