@@ -36,8 +36,8 @@ constexpr double largest_scale = 2.0;
 /// What was typed; empty where the option was not given.
 struct raw {
     std::string shape, strength, membrane, rings, tiles, confining, scale, strain, inertial_number, criterion, weibull,
-        replacement, birth, bond_stiffness, friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
-        stop_after, protocol, preset;
+        replacement, birth, bond_stiffness, friction, platen_friction, membrane_friction, damping, seed, threads, out,
+        resume, save_every, snapshots, rows, stop_after, protocol, preset;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -112,6 +112,9 @@ void declare(CLI::App& app, raw& r) {
         "triaxial");
     add("--inertial-number", r.inertial_number, "I", "limit of the inertial number in shear", "1e-4");
     add("--friction", r.friction, "MU", "friction coefficient between grains", "0.3");
+    add("--platen-friction", r.platen_friction, "MU",
+        "friction coefficient of the platens; a contact takes the smaller of its two pieces", "0");
+    add("--membrane-friction", r.membrane_friction, "MU", "the same of the membrane", "0");
     add("--damping", r.damping, "A", "local damping", "0.7");
     add("--seed", r.seed, "N", "of the random packing", "1");
     group = "Breakage";
@@ -315,6 +318,12 @@ options checked_options(const raw& r) {
     if (!r.friction.empty())
         o.friction =
             checked<quantities::ratio>(r.friction, "--friction", 0.0, 10.0, true, "0 to 10", "The paper uses 0.3.");
+    if (!r.platen_friction.empty())
+        o.platen_friction = checked<quantities::ratio>(r.platen_friction, "--platen-friction", 0.0, 10.0, true,
+                                                       "0 to 10", "Lubricated platens have nearly none, the default.");
+    if (!r.membrane_friction.empty())
+        o.membrane_friction = checked<quantities::ratio>(r.membrane_friction, "--membrane-friction", 0.0, 10.0, true,
+                                                         "0 to 10", "0 is the default.");
     if (r.weibull == "none")
         o.weibull = 0.0;
     else if (!r.weibull.empty())
@@ -446,6 +455,8 @@ std::string physics_text(const options& o) {
     line("protocol", o.protocol);
     line("inertial number", o.inertial_number);
     line("friction", o.friction);
+    line("platen friction", o.platen_friction);
+    line("membrane friction", o.membrane_friction);
     line("weibull", o.weibull);
     line("damping", o.damping);
     line("seed", o.seed);
@@ -475,6 +486,8 @@ std::vector<std::string> to_arguments(const options& o) {
     add("protocol", o.protocol);
     add("inertial-number", o.inertial_number);
     add("friction", o.friction);
+    add("platen-friction", o.platen_friction);
+    add("membrane-friction", o.membrane_friction);
     if (o.weibull > 0.0)
         add("weibull", o.weibull);
     else
@@ -527,7 +540,7 @@ std::string paper_preset_text() {
         {"", "", "D3", "the stiff bonds of a cluster are sub-cycled, the step of the specimen stays",
          "an explicit step would be 20 to 70 times smaller"},
         {"Platen normal stiffness", "3.2e8 N/m", "D6, D7",
-         "in series with the pebble; no friction with platens and tiles",
+         "in series with the pebble; no friction with platens and tiles unless asked for",
          "none is listed; usual for lubricated platens"},
         {"Tile normal stiffness", "3.2e6 N/m", "D6, D7", "the same", ""},
         {"Coefficient of friction", "0.3", "D7", "between pebbles", ""},

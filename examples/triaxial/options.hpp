@@ -45,6 +45,8 @@ struct options {
     std::string protocol = "triaxial"; ///< "triaxial", "isotropic" or "unload"
     double inertial_number = 1e-4;     ///< limit in shear
     double friction = 0.3;             ///< between pebbles
+    double platen_friction = 0.0;      ///< of the platens
+    double membrane_friction = 0.0;    ///< of the membrane
     double damping = 0.7;              ///< local damping
     std::uint64_t seed = 1;
     // how grains break

@@ -147,6 +147,8 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
     using namespace clast;
     table_1 materials;
     materials.pebble.friction = o.friction;
+    materials.platen.friction = o.platen_friction;
+    materials.membrane.friction = o.membrane_friction;
     typename P::breakage breakage = [&]() -> typename P::breakage {
         if constexpr (P::breakage::evaluated) {
             const std::string name = o.criterion == "hertz_calibrated" ? "hertz_contact"

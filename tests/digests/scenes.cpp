@@ -53,9 +53,11 @@ template <class P> engine_settings<P> cut_in_ranges(engine_settings<P> s, int th
     return s;
 }
 template <class P> engine_settings<P> one_law(const typename P::contact& law, double damping, int threads) {
+    typename P::contact wall = law;
+    wall.mu = 0.0;
     return cut_in_ranges<P>({.grain_contact = law,
-                             .platen_contact = law,
-                             .lateral_contact = law,
+                             .platen_contact = wall,
+                             .lateral_contact = wall,
                              .breakage = {},
                              .replacement = {},
                              .scheme = {.damping = damping}},

@@ -124,6 +124,7 @@ struct clumps {
         const body_motion& m = motion[b];
         return b < grains.size() ? m.v + cross(m.w, pebbles[static_cast<std::size_t>(pebble)].x - m.x) : m.v;
     }
+    const vec3& spin_of_pebble(std::int32_t pebble) const { return motion[body_of(pebble)].w; } ///< rad/s
     /// Of the body of a pebble (1/kg).
     double inverse_mass_of(std::int32_t pebble) const { return motion[body_of(pebble)].inverse_mass; }
     /// Pebbles of one group stand together; contact lists are sorted by the group of the first pebble.

@@ -71,6 +71,7 @@ concept swept = std::movable<S> && requires(S& s, const S& c, std::size_t b, vec
     { c.body_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.group_of(std::int32_t{}) } -> std::same_as<std::size_t>;
     { c.velocity_of(std::int32_t{}) } -> std::convertible_to<vec3>;
+    { c.spin_of_pebble(std::int32_t{}) } -> std::convertible_to<vec3>;
     { c.inverse_mass_of(std::int32_t{}) } -> std::same_as<double>;
     c.view();
     { c.centre(b) } -> std::convertible_to<vec3>;

@@ -57,6 +57,7 @@ struct spheres {
     static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     sphere_view view() const { return {pebbles.data()}; }
     const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
+    const vec3& spin_of_pebble(std::int32_t pebble) const { return pebbles[body_of(pebble)].w; }
     double inverse_mass_of(std::int32_t pebble) const { return pebbles[body_of(pebble)].inverse_mass; }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
@@ -103,8 +104,7 @@ struct spheres {
     [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies,
                                            const Rule& rule, const allowance<reference>& allowed) {
         using scheme_type = decltype(rule.scheme);
-        using row = std::conditional_t < requires(const scheme_type s, quad<N> q) { s.extra(q, q); }
-        , quad<N>, four_numbers > ;
+        using row = std::conditional_t<integrators::takes<scheme_type, quad<N>>, quad<N>, four_numbers>;
         const auto dot = [](const row& a, const row& b) __attribute__((always_inline)) {
             return clast::dot(vec3{a[0], a[1], a[2]}, vec3{b[0], b[1], b[2]});
         };

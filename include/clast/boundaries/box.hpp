@@ -25,7 +25,7 @@ struct box_settings {
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-wall contact, least K of the servo (N/m), > 0
 };
 
-/// Six rigid frictionless planes. Facets: 0 bottom, 1 top (the platens of `drives`), 2 and 3 the walls normal to x at
+/// Six rigid planes. Facets: 0 bottom, 1 top (the platens of `drives`), 2 and 3 the walls normal to x at
 /// its lower and upper end, 4 and 5 those normal to y. A facet's velocity is positive inward. Opposite walls move
 /// alike, on the mean of their forces.
 class box {

@@ -167,6 +167,17 @@ template <moving_unit Unit> class faceted_cylinder {
         check_state();
     }
 
+    /// Velocity (m/s) of the surface at a point of a touch: platens move along the axis, tiles across it and, with
+    /// their rings, along it as their height between the platens asks for.
+    vec3 velocity_at(const boundaries::touch& t, const vec3& point) const {
+        if (t.facet == bottom_platen) return {0.0, 0.0, platens_.velocity[0]};
+        if (t.facet == top_platen) return {0.0, 0.0, -platens_.velocity[1]};
+        const std::size_t i = index((t.facet - first_lateral_facet) % around_);
+        const double v = velocity(t.facet), share = std::clamp((point.z - bottom()) / height(), 0.0, 1.0);
+        return {-v * dir_.cosine[i], -v * dir_.sine[i],
+                (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1]};
+    }
+
     // --- measures --------------------------------------------------------------------------------------------------
     double volume() const { return volume_; }             ///< enclosed (m^3)
     double height() const { return platens_.height(); }   ///< between platens (m)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <clast/core/vector.hpp>
@@ -22,6 +23,8 @@ struct touch {
     double along; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
 
     constexpr bool at_platen() const { return facet < first_lateral_facet; }
+    /// Number of the platen, of a touch at one: 0 bottom, 1 top.
+    constexpr std::size_t platen() const { return facet == top_platen ? 1 : 0; }
 };
 
 /// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
@@ -112,11 +115,35 @@ struct facet_load {
     }
 };
 
+/// Velocity (m/s) of a surface at a point that one of its facets touches, `ahead` seconds from now: what the surface
+/// says of itself (`velocity_at(touch, point)`), or else its speed along the normal of the touch.
+template <class B>
+vec3 velocity_of(const B& surface, const touch& t, [[maybe_unused]] const vec3& point, double /*ahead*/) {
+    if constexpr (requires { surface.velocity_at(t, point); })
+        return surface.velocity_at(t, point);
+    else
+        return (t.along * surface.velocity(t.facet)) * t.normal;
+}
+
+/// What a law remembers of a pebble at a boundary that rubs, and what that does to the pebble in this step.
+template <class History> struct grip {
+    struct hold {
+        History history{};
+        vec3 normal; ///< from the pebble to the wall when it was evaluated last; zero: it did not touch
+        vec3 force;  ///< across the normal, on the pebble (N)
+    };
+    std::array<hold, 3> part; ///< bottom platen, top platen, lateral wall
+    vec3 force;               ///< of all (N)
+    vec3 moment;              ///< about the centre of the pebble (N m)
+    double dissipated = 0.0;  ///< J
+};
+
 /// A pebble at a boundary: what touches it and the forces that it takes (N).
 struct wall_row {
     std::int32_t pebble = -1;
     double lateral = 0.0;           ///< size of the lateral force (N)
     vec3 force;                     ///< on the pebble
+    vec3 friction;                  ///< its part across the normals
     std::array<double, 2> platen{}; ///< force of bottom and top platen (N)
     touches touch;
 

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <clast/bodies/concepts.hpp>
 #include <clast/boundaries/touch.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/engine/scene.hpp>
+#include <clast/engine/wall_friction.hpp>
 
 namespace clast::rooms {
 
@@ -32,12 +34,22 @@ template <class S> double elastic_energy(const S& s) {
     };
     s.each_heavy([&](std::size_t k) { add(s.heavy, k); });
     for (std::size_t k = 0; k < s.light.size(); ++k) add(s.light, k);
-    s.each_wall_row([&](const boundaries::wall_row& w) {
-        const double lateral = norm(boundaries::lateral_push(w.touch));
-        if (lateral > 0.0) e += s.settings.lateral_contact.stored(s.overlap_at_wall(w.pebble, lateral), {});
-        for (const boundaries::touch& t : w.touch)
-            if (t.at_platen()) e += s.settings.platen_contact.stored(s.overlap_at_wall(w.pebble, t.depth), {});
-    });
+    const auto add_walls = [&](const std::vector<boundaries::wall_row>& wall,
+                               const std::vector<typename S::wall_grip>& grips) {
+        for (std::size_t k = 0; k < wall.size(); ++k) {
+            const boundaries::wall_row& w = wall[k];
+            const typename S::wall_grip held = grips.empty() ? typename S::wall_grip{} : grips[k];
+            const double lateral = norm(boundaries::lateral_push(w.touch));
+            if (lateral > 0.0)
+                e += s.settings.lateral_contact.stored(s.overlap_at_wall(w.pebble, lateral),
+                                                       held.part[lateral_wall].history);
+            for (const boundaries::touch& t : w.touch)
+                if (t.at_platen())
+                    e += s.settings.platen_contact.stored(s.overlap_at_wall(w.pebble, t.depth),
+                                                          held.part[t.platen()].history);
+        }
+    };
+    add_walls(s.heavy_wall, s.heavy_grip), add_walls(s.light_wall, s.light_grip);
     return s.broken.add_bond_energy(e);
 }
 /// Lost to friction and damping so far (J).

@@ -30,8 +30,12 @@ void each_row_of(const S& s, std::size_t g, const incidence& of, const contact_l
               s.position(one.pebble) + (side * (s.radius(one.pebble) - 0.5 * row.depth)) * row.normal);
         } else {
             const boundaries::wall_row& w = wall[one.row() - list.size()];
+            const vec3 x = s.position(w.pebble);
+            const double r = s.radius(w.pebble);
             for (const boundaries::touch& t : w.touch)
-                f(w.pebble, -1 - t.facet, w.share(t) * t.normal, s.position(w.pebble) - s.radius(w.pebble) * t.normal);
+                f(w.pebble, -1 - t.facet, w.share(t) * t.normal, x - r * t.normal);
+            if (norm2(w.friction) > 0.0)
+                f(w.pebble, -1 - w.touch.begin()->facet, w.friction, x - r * unit(w.force - w.friction));
         }
     }
 }

@@ -57,7 +57,7 @@ template <class S> void evaluate_light(S& s, double h, double ahead) {
     each_chunk(s.settings.run, s.light.size(), [&](index_range some) {
         evaluate(s.light, some, s.grains.view(), s.settings.grain_contact, h, light_job<S>{s, ahead});
     });
-    evaluate_walls(s, s.light_wall, h, ahead);
+    evaluate_walls(s, s.light_wall, s.light_grip, h, ahead);
 }
 /// Sum of the light rows of one body about its centre, in the order of the list; `ahead` seconds from t_n, like the
 /// centre. Friction losses are booked on side i.
@@ -77,6 +77,11 @@ template <class S> load_sum sum_light(const S& s, std::size_t body, const vec3& 
             const boundaries::wall_row& w = s.light_wall[one.row() - s.light.size()];
             sum.force += w.force;
             sum.moment += cross(arm, w.force);
+            if (!s.light_grip.empty()) {
+                const auto& grip = s.light_grip[one.row() - s.light.size()];
+                sum.moment += grip.moment;
+                sum.dissipated += grip.dissipated;
+            }
         }
     }
     return sum;

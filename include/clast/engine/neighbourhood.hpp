@@ -21,6 +21,7 @@
 #include <clast/core/errors.hpp>
 #include <clast/engine/pebble_pairs.hpp>
 #include <clast/engine/scene.hpp>
+#include <clast/engine/wall_friction.hpp>
 
 namespace clast::rooms {
 
@@ -222,7 +223,20 @@ template <class S> contact_list<typename S::history> chosen(const S& s, const pa
     return list;
 }
 template <class S> void choose_walls(S& s) {
-    s.heavy_wall.clear(), s.light_wall.clear();
+    // what pebbles remember of walls that rub, and where it is
+    std::vector<typename S::wall_grip> old;
+    std::vector<std::int32_t> place;
+    if (s.walls_rub()) {
+        place.assign(s.grains.pebble_count(), -1);
+        const auto note = [&](const auto& wall, const auto& grips) {
+            for (std::size_t k = 0; k < grips.size(); ++k) {
+                place[s.at(wall[k].pebble)] = static_cast<std::int32_t>(old.size());
+                old.push_back(grips[k]);
+            }
+        };
+        note(s.heavy_wall, s.heavy_grip), note(s.light_wall, s.light_grip);
+    }
+    s.heavy_wall.clear(), s.light_wall.clear(), s.heavy_grip.clear(), s.light_grip.clear();
     for (std::int32_t p : s.near.wide.wall) {
         const std::size_t body = s.grains.body_of(p);
         if (!s.boundary.near(s.position(p), s.radius(p) + s.near.margins[body] + s.near.wall_margin)) continue;
@@ -230,6 +244,9 @@ template <class S> void choose_walls(S& s) {
         w.pebble = p;
         (body < s.grains.body_count() ? s.heavy_wall : s.light_wall).push_back(w);
     }
+    if (!s.walls_rub()) return;
+    s.heavy_grip = grips_for(s, s.heavy_wall, place, old);
+    s.light_grip = grips_for(s, s.light_wall, place, old);
 }
 /// Which pebbles of clumps the lists name, and which not.
 template <class S> void sort_pebbles(S& s) {

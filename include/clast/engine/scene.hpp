@@ -108,6 +108,7 @@ template <simulator_policies P> struct scene {
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
     using wall_row = boundaries::wall_row;
+    using wall_grip = boundaries::grip<history>;
     using scheme_type = typename P::scheme;
     using rule_type = integrators::rule<scheme_type, typename space_type::flow_type>;
     /// What a scheme keeps of every body, if anything.
@@ -129,7 +130,8 @@ template <simulator_policies P> struct scene {
     contact_list<history> heavy, light;
     std::vector<pebble_pair> asleep; ///< pairs of balls that an intact bond carries, in the order of the lists
     std::vector<wall_row> heavy_wall, light_wall;
-    std::optional<incidence> heavy_of; ///< which heavy rows act on a body: made when it is asked for
+    std::vector<wall_grip> heavy_grip, light_grip; ///< per row of the wall, where walls rub; empty elsewhere
+    std::optional<incidence> heavy_of;             ///< which heavy rows act on a body: made when it is asked for
     incidence light_of;
     body_items listed;   ///< pebbles of clumps that are in a list, so placed in every step
     body_items unlisted; ///< the others
@@ -187,6 +189,12 @@ template <simulator_policies P> struct scene {
     contacts::overlap<double> overlap_at_wall(std::int32_t pebble, double depth) const {
         return {0, 0, 1, depth, 1.0 / radius(pebble), 0.0, grains.inverse_mass_of(pebble), 0.0};
     }
+    /// Whether a wall has friction.
+    bool walls_rub() const {
+        if constexpr (contacts::frictional<contact> && !std::is_empty_v<history>)
+            return settings.platen_contact.mu > 0.0 || settings.lateral_contact.mu > 0.0;
+        return false;
+    }
     /// Order of the lists: by first body, second pebble, first pebble.
     auto pair_order() const {
         return [this](const pebble_pair& a, const pebble_pair& b) {
@@ -242,7 +250,8 @@ template <simulator_policies P> struct scene {
         a(grains, boundary, space, settings.grain_contact, breakage_on, totals, dt, light_steps, estimate_due);
         a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
         a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(near, heavy, heavy_wall, light, light_wall, light_of, asleep, listed, unlisted, memory);
+        a(near, heavy, heavy_wall, heavy_grip, light, light_wall, light_grip, light_of, asleep, listed, unlisted,
+          memory);
         broken.archive(a);
     }
 };

@@ -90,7 +90,8 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
             const boundaries::wall_row& w = wall[r - list.size()];
             const double rp = s.radius(w.pebble);
             for (const boundaries::touch& t : w.touch)
-                k.add(t.normal, law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.depth)), 0.0,
+                k.add(t.normal, law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.depth)),
+                      s.walls_rub() ? law_at(s, t).shear_stiffness(s.overlap_at_wall(w.pebble, t.depth)) : 0.0,
                       s.position(w.pebble) - rp * t.normal - centre);
         }
     }

@@ -67,6 +67,10 @@ template <class S>
         const boundaries::wall_row& w = s.heavy_wall[wall];
         load.force += w.force;
         if constexpr (S::body_type::turns) load.moment += cross(s.position(w.pebble) - s.grains.centre(body), w.force);
+        if (!s.heavy_grip.empty()) {
+            load.moment += s.heavy_grip[wall].moment;
+            load.dissipated += s.heavy_grip[wall].dissipated;
+        }
     }
     s.broken.add_halo_load(body, load);
     return load;

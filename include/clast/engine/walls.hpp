@@ -12,6 +12,7 @@
 #include <clast/core/vector.hpp>
 #include <clast/engine/neighbourhood.hpp>
 #include <clast/engine/scene.hpp>
+#include <clast/engine/wall_friction.hpp>
 
 namespace clast::rooms {
 
@@ -19,9 +20,9 @@ namespace clast::rooms {
 template <class S> void evaluate_wall(const S& s, boundaries::wall_row& w, double h, double ahead) {
     using contact = typename S::contact;
     const boundaries::touches touching = s.boundary.touch(s.position(w.pebble), s.radius(w.pebble), ahead);
-    w.force = {}, w.lateral = 0.0, w.platen = {}, w.touch.size = 0;
+    w.force = w.friction = {}, w.lateral = 0.0, w.platen = {}, w.touch.size = 0;
     if (touching.size == 0) return;
-    // facets are frictionless: the law sees no tangential motion and keeps no history
+    // across the normal see wall_friction.hpp: here the law sees no tangential motion and keeps no history
     const auto push = [&](const contact& law, double depth, double approach) {
         const contacts::overlap<double> o = s.overlap_at_wall(w.pebble, depth);
         const contacts::motion<double> m{0, 0, 0, 0, approach};
@@ -53,8 +54,14 @@ template <class S> void evaluate_wall(const S& s, boundaries::wall_row& w, doubl
         }
     w.touch = touching; // last: to copy at once what has just been written in pieces takes a fifth of all this
 }
-template <class S> void evaluate_walls(const S& s, std::vector<boundaries::wall_row>& rows, double h, double ahead) {
+/// The same for all rows of one list, with friction where walls have it.
+template <class S>
+void evaluate_walls(const S& s, std::vector<boundaries::wall_row>& rows, std::vector<typename S::wall_grip>& grips,
+                    double h, double ahead) {
     s.settings.run.for_each(rows.size(), [&](std::size_t k) { evaluate_wall(s, rows[k], h, ahead); });
+    if (!s.walls_rub()) return grips.clear();
+    grips.resize(rows.size());
+    s.settings.run.for_each(rows.size(), [&](std::size_t k) { rub(s, rows[k], grips[k], h, ahead); });
 }
 /// What touches pebbles now, without forces.
 template <class S> void touch_walls(const S& s, std::vector<boundaries::wall_row>& rows) {
@@ -103,9 +110,12 @@ template <class S> void control_walls(S& s, double span) {
         s.loads.assign(s.loads.size(), {}), s.couplings.clear();
     add_loads(s, s.heavy_wall, 1.0, s.loads, &s.couplings);
     // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
-    const double power = s.boundary.power(s.loads);
+    double power = s.boundary.power(s.loads);
+    power += friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
     s.boundary.control(s.loads, s.drives, span, s.couplings);
-    s.totals.boundary_work += 0.5 * (power + s.boundary.power(s.loads)) * span;
+    power += s.boundary.power(s.loads);
+    power += friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
+    s.totals.boundary_work += 0.5 * power * span;
 }
 /// Walls and space go on by a span (s).
 template <class S> void advance_walls(S& s, double span) {

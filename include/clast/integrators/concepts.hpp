@@ -49,6 +49,12 @@ concept scheme = std::copyable<S> && std::is_trivially_copyable_v<typename S::me
     };
 };
 
+/// Whether the functions of a scheme take records of four numbers.
+template <class S, class V>
+concept takes = requires(const S s, const V& v) {
+    { s.extra(v, v) } -> std::same_as<V>;
+};
+
 /// A scheme that keeps nothing.
 template <class S>
 concept forgetful = std::is_empty_v<typename S::memory>;

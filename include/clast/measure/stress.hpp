@@ -32,6 +32,10 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
             const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * t.normal;
             f(-w.share(t) * t.normal, point - e.centre_of(w.pebble), point);
         }
+        if (norm2(w.friction) > 0.0) {
+            const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * unit(w.force - w.friction);
+            f(-w.friction, point - e.centre_of(w.pebble), point);
+        }
     });
     e.breakage().each_bond(s, [&](std::int32_t i, std::int32_t j, const auto& bond) {
         const vec3 xi = s.pebbles[at(i)].x, d = s.pebbles[at(j)].x - xi;

@@ -26,7 +26,7 @@
 namespace clast {
 
 /// Stiffness and friction of the pieces as Table 1 of the paper prints them; a contact inherits from both of its pieces
-/// in series. Platens and membrane are frictionless (paper section 1: the usual frictionless walls).
+/// in series. Platens and membrane have no friction by default (paper section 1: the usual frictionless walls).
 struct table_1 {
     contacts::piece pebble{5.8e6, 2.9e6, 0.3};
     contacts::piece platen{3.2e8, 1.6e8, 0.0};
@@ -38,8 +38,8 @@ struct table_1 {
     contacts::linear at_membrane() const { return contacts::linear::between(pebble, membrane); }
 };
 
-/// Contacts of a law that Table 1 knows nothing of, given one by one. Walls are frictionless: at them the law sees no
-/// tangential motion and no history. Its normal stiffness under a small overlap must be positive, for the servo.
+/// Contacts of a law that Table 1 knows nothing of, given one by one. At a wall whose law has mu = 0 the law sees
+/// no tangential motion and no history. Its normal stiffness under a small overlap must be positive, for the servo.
 template <contacts::contact_law L> struct contacts_of_law {
     L grain;                 ///< pebble against pebble
     L platen;                ///< pebble against platen
