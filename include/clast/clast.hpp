@@ -6,6 +6,7 @@
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/none.hpp>
+#include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
