@@ -19,7 +19,7 @@ int main() {
                                             .confining = 500_kPa,
                                             .breakage = {},
                                             .replacement = {}},
-                                           clast::protocol::triaxial_compression(10_cm, 15_cm, 500_kPa, 1_percent));
+                                           clast::protocol::triaxial_compression(1_percent));
     printer rows;
     test.run(rows);
 }

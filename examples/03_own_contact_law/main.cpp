@@ -52,8 +52,7 @@ int main() {
                                              .replacement = {},
                                              .materials = {.grain = {1e9, 0.3}, .platen = {4e9}, .membrane = {5e8}},
                                              .inertial_number = 1e-3};
-    clast::triaxial_test<my_policies> test(
-        setup, clast::protocol::triaxial_compression(8_cm, 12_cm, 500_kPa, 1_percent, 1e-3));
+    clast::triaxial_test<my_policies> test(setup, clast::protocol::triaxial_compression(1_percent));
     clast::observer silent;
     test.run(silent);
     const clast::sample s = test.protocol().measure();

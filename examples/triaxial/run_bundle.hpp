@@ -161,7 +161,7 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
         }
     }();
     typename P::replacement replacement{};
-    if constexpr (P::replacement::makes_bonds) {
+    if constexpr (P::replacement::replaces) {
         replacement.bond.reading = o.bond_stiffness_reading == bond_reading::force ? bonds::stiffness_reading::force
                                    : o.bond_stiffness_reading == bond_reading::modulus
                                        ? bonds::stiffness_reading::modulus

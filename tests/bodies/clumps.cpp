@@ -2,6 +2,7 @@
 #include <clast/bodies/clumps.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -128,4 +129,71 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     bodies::clumps lost = s;
     lost.motion[7].v.x = std::numeric_limits<double>::quiet_NaN();
     CHECK(move(lost, bodies) == margin_use::not_finite);
+}
+
+TEST_CASE("a spin that is set has its angular momentum, and about an axis whose inverse inertia is 0 none turns") {
+    bodies::clumps s;
+    s.shapes = {make_shape("pair", {{{-0.01, 0, 0}, 0.01}, {{0.01, 0, 0}, 0.01}})};
+    s.add(0, {}, unit(quaternion{1.0, 0.2, -0.5, 0.4}));
+    const vec3 w{3.0, -2.0, 1.0};
+    s.set_velocity(0, {1.0, 2.0, 2.0});
+    s.set_spin(0, w);
+    CHECK(s.spin(0) == w);
+    CHECK(norm(spin_of(s.turning[0].q, s.turning[0].l, s.inverse_inertia(s.grains[0])) - w) < 1e-14);
+    const double moving = 0.5 * s.body_mass(0) * 9.0;
+    CHECK(s.kinetic_energy(0) == Approx(moving + 0.5 * dot(s.turning[0].l, w)));
+    s.of_shape[0].inverse_inertia = {};
+    CHECK(s.kinetic_energy(0) == Approx(moving));
+    CHECK(s.body_inertia(0).z == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a clump that is split goes on in parts: tables in order, nothing lost") {
+    bodies::clumps s;
+    s.shapes = {shapes::apollonian_14(0.02), shapes::tetrahedron_4(0.01)};
+    for (int k = 0; k < 3; ++k) s.add(k == 1 ? 0 : 1, {0.1 * k, -0.2, 0.3}, unit(quaternion{1.0, 0.2, -0.5, 0.1 * k}));
+    s.motion[1].v = {1, 2, 3};
+    s.turning[1].l = {2e-5, -1e-5, 3e-5};
+    s.losses[1].friction = 5.0, s.losses[2].friction = 7.0;
+    s.motion.resize(s.grain_count() + s.pebble_count()); // room for balls
+    s.losses.resize(s.motion.size());
+    s.owner[20] = static_cast<std::int32_t>(s.ball(20)); // one is its own
+    s.motion[s.ball(20)].v = {9, 0, 0};
+    const bodies::clumps whole = s;
+    // runs of 1, 4 and 9
+    s.shapes.push_back(part_of(s.shapes[0], 0, 1));
+    s.shapes.push_back(part_of(s.shapes[0], 1, 4));
+    s.shapes.push_back(part_of(s.shapes[0], 5, 9));
+    const std::vector<clump_part> parts{{0, 2}, {1, 3}, {5, 4}};
+    s.split(1, parts);
+    REQUIRE(s.grain_count() == 5);
+    CHECK(s.motion.size() == 5 + s.pebble_count());
+    CHECK(s.losses.size() == s.motion.size());
+    const std::int32_t first[] = {0, 4, 5, 9, 18}, id[] = {0, 1, 3, 4, 2};
+    for (std::size_t g = 0; g < 5; ++g) {
+        CHECK(s.grains[g].first == first[g]);
+        CHECK(s.grains[g].id == id[g]);
+        const index_range own = s.pebbles_of(g);
+        for (std::size_t p = own.begin; p < own.end; ++p) {
+            CHECK(s.mother[p] == static_cast<std::int32_t>(g));
+            CHECK(s.owner[p] == static_cast<std::int32_t>(p == 20 ? s.ball(20) : g));
+        }
+    }
+    CHECK(s.motion[s.ball(20)].v == vec3{9, 0, 0});
+    CHECK((s.losses[1].friction == 5.0 && s.losses[2].friction == 0.0 && s.losses[4].friction == 7.0));
+    CHECK(s.turning[4].q.z == whole.turning[2].q.z);
+    double energy = 0.0, mass = 0.0;
+    vec3 momentum, angular;
+    for (std::size_t g = 1; g < 4; ++g) {
+        energy += s.kinetic_energy(g), mass += s.body_mass(g);
+        momentum += s.body_mass(g) * s.motion[g].v;
+        angular += s.body_mass(g) * cross(s.motion[g].x, s.motion[g].v) + s.turning[g].l;
+        s.place(g);
+    }
+    const double m = whole.body_mass(1);
+    CHECK(energy == Approx(whole.kinetic_energy(1)).epsilon(1e-13));
+    CHECK(mass == Approx(m).epsilon(1e-14));
+    CHECK(norm(momentum - m * whole.motion[1].v) < 1e-14 * norm(momentum));
+    const vec3 was = m * cross(whole.motion[1].x, whole.motion[1].v) + whole.turning[1].l;
+    CHECK(norm(angular - was) < 1e-13 * norm(whole.turning[1].l));
+    for (std::size_t p = 4; p < 18; ++p) CHECK(norm(s.pebbles[p].x - whole.pebbles[p].x) < 1e-16);
 }

@@ -173,3 +173,35 @@ TEST_CASE("every body is given its rows in the order of the list, with pebble an
     CHECK((rows(0) == std::vector<expected>{{1, 0, 1.0}, {2, 0, 1.0}, {5, 0, 1.0}}));
     CHECK((rows(2) == std::vector<expected>{{2, 2, -1.0}, {0, 2, -1.0}, {3, 2, 1.0}}));
 }
+
+TEST_CASE("a list is sorted again after its order has changed: in front and behind each for itself, rows and all") {
+    struct remembers {
+        double what;
+    };
+    contact_list<remembers> list;
+    list.pairs = {{0, 9}, {4, 8}, {0, 5}, {1, 5}, {2, 6}};
+    list.resize();
+    list.shared = 2;
+    list.rows.resize(5);
+    for (std::size_t k = 0; k < 5; ++k) list.history[k].what = list.rows[k].depth = static_cast<double>(k);
+    sort_by(list, [](const pebble_pair& a, const pebble_pair& b) { return a.i > b.i; });
+    CHECK(list.pairs == std::vector<pebble_pair>{{4, 8}, {0, 9}, {2, 6}, {1, 5}, {0, 5}});
+    CHECK(list.shared == 2);
+    const double was[] = {1, 0, 4, 3, 2};
+    for (std::size_t k = 0; k < 5; ++k) CHECK((list.history[k].what == was[k] && list.rows[k].depth == was[k]));
+}
+
+TEST_CASE("contacts that are taken off a list take their histories and rows with them") {
+    struct remembers {
+        double what;
+    };
+    contact_list<remembers> list;
+    list.pairs = {{0, 1}, {0, 2}, {1, 2}, {2, 3}};
+    list.resize();
+    list.rows.resize(4);
+    for (std::size_t k = 0; k < 4; ++k) list.history[k].what = list.rows[k].depth = static_cast<double>(k);
+    erase_contacts(list, [](const pebble_pair& p) { return p.j == 2; });
+    CHECK(list.pairs == std::vector<pebble_pair>{{0, 1}, {2, 3}});
+    REQUIRE((list.history.size() == 2 && list.rows.size() == 2));
+    CHECK((list.history[1].what == 3.0 && list.rows[1].depth == 3.0));
+}

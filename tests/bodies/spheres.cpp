@@ -62,3 +62,24 @@ TEST_CASE("spheres move by the loads that act on them, damped or not, and say ho
         CHECK(move() == margin_use::not_finite);
     }
 }
+
+TEST_CASE("a sphere whose inverse inertia is 0 does not turn, and has the energy of its motion") {
+    bodies::spheres s;
+    s.add({}, 0.01);
+    s.pebbles[0].inverse_inertia = 0.0;
+    s.set_velocity(0, {3.0, 0.0, 4.0});
+    const double energy = 0.5 * s.body_mass(0) * 25.0;
+    CHECK(s.kinetic_energy(0) == Approx(energy));
+    CHECK(s.body_inertia(0).x == std::numeric_limits<double>::infinity());
+    const std::vector<bodies::spheres::reference> since{s.refer(0)};
+    const std::vector<moving_body> bodies{{0, {{}, {1.0, 2.0, 3.0}, 0.0}}};
+    const std::vector<double> margins{1.0};
+    for (const double damping : {0.0, 0.7})
+        s.advance(bodies, integrators::rule<integrators::leapfrog>{{damping}, {}, 1e-5, 1e-5}, {},
+                  {since, margins, {1.0, 1.0, 1.0}}, [](std::size_t) { return 0.0; });
+    CHECK(s.spin(0) == vec3{});
+    CHECK(s.kinetic_energy(0) == Approx(energy));
+    CHECK(s.losses[0].damping == 0.0);
+    s.set_spin(0, {1.0, 0.0, 0.0}); // it would take infinite energy, so there is none
+    CHECK(s.kinetic_energy(0) == Approx(energy));
+}

@@ -553,3 +553,18 @@ TEST_CASE("a bond across a gap turns no grain") {
         CHECK(norm(one.angular_momentum()) < 1e-8 * turned);
     }
 }
+
+TEST_CASE("a cluster that is dissolved has no bond, no energy and no seat among the living") {
+    cluster_pool pool(lattice(shapes::tetrahedron_4(0.02), parallel{}, 2650.0), 0.0);
+    std::vector<state> born(6);
+    for (state& s : born) s.n = 100.0;
+    for (int k = 0; k < 3; ++k) pool.add(born);
+    pool.dissolve(1);
+    CHECK(pool.intact_bonds(1) == 0);
+    CHECK(pool.energy(1) == 0.0);
+    for (std::size_t b = 0; b < 6; ++b) CHECK((!pool.is_intact(1, b) && pool.get(1, b).n == 0.0));
+    CHECK(pool.living(0, 1) == -1);
+    pool.pack();
+    CHECK((pool.intact_bonds(0) == 6 && pool.intact_bonds(2) == 6 && pool.intact_bonds(1) == 0));
+    CHECK(pool.get(2, 5).n == 100.0);
+}

@@ -84,6 +84,28 @@ TEST_CASE("servo walls of a box follow stress and area of their own pair") {
     CHECK(b.power(loads) == Approx(2.2e5 * b.area(2) * b.velocity(2)).epsilon(1e-9));
 }
 
+TEST_CASE("a box has three driven axes: y walls follow a drive of their own where there is one, else that of x") {
+    box b = unit_box();
+    std::vector<facet_load> loads(6);
+    drives d = moving(0.1, 0.2);
+    b.control(loads, d, 1e-3);
+    CHECK(b.velocity(4) == 0.2);
+    d.lateral_y = drive{drive::mode::velocity, -0.3, 0.0, 0.5};
+    b.control(loads, d, 1e-3);
+    CHECK(b.velocity(0) == 0.1);
+    CHECK(b.velocity(3) == 0.2);
+    CHECK(b.velocity(4) == -0.3);
+    CHECK(b.velocity(5) == -0.3);
+    for (int f = 0; f < 6; ++f) loads[static_cast<std::size_t>(f)] = {1e5 * b.area(f), 1e7, 1};
+    d.lateral = {drive::mode::servo, 1e5, 0.1, 0.5};
+    d.lateral_y = drive{drive::mode::servo, 2e5, 0.1, 0.5};
+    b.control(loads, d, 1e-5);
+    CHECK(std::abs(b.velocity(2)) < 1e-12);
+    CHECK(b.velocity(4) == Approx(std::min(0.1, 0.5 * 1e5 * b.area(4) / 1e7 / 1e-5)));
+    d.lateral_y->max_speed = 0.0;
+    CHECK_THROWS_AS(b.control(loads, d, 1e-5), input_error);
+}
+
 TEST_CASE("a box without inside is refused, walls that meet stop the run, and the rest comes back from an archive") {
     CHECK_THROWS_AS(box({{0, 0, 0}, {1, 0, 1}, 1e8, 1e6}), input_error);
     CHECK_THROWS_AS(box({{0, 0, 0}, {1, 1, 1}, 1e8, 0.0}), input_error);

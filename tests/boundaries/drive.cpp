@@ -4,6 +4,7 @@
 #include <catch.hpp>
 
 #include <clast/boundaries/drive.hpp>
+#include <clast/io/archive.hpp>
 
 using clast::boundaries::check;
 using clast::boundaries::drive;
@@ -17,4 +18,22 @@ TEST_CASE("a drive that cannot work is refused by name", "[boundaries]") {
     CHECK_THROWS_AS(check({mode::servo, 2e6, 0.0, 0.5}, "x"), clast::input_error);   // speed limit forgotten
     CHECK_THROWS_AS(check({mode::servo, 2e6, 0.02, 1.0}, "x"), clast::input_error);  // unstable gain
     CHECK_THROWS_AS(check({mode::velocity, std::numeric_limits<double>::quiet_NaN(), 0, 0.5}, "x"), clast::input_error);
+}
+
+TEST_CASE("drives come back from an archive, that of y walls whether it is there or not") {
+    using clast::boundaries::drives;
+    using mode = drive::mode;
+    drives d, copy;
+    d.platens = {mode::velocity, 0.1, 0.2, 0.3};
+    d.lateral = {mode::servo, 1e5, 0.5, 0.4};
+    clast::from_bytes(clast::to_bytes(d), copy);
+    CHECK(copy.platens.value == 0.1);
+    CHECK(copy.lateral.how == mode::servo);
+    CHECK(copy.lateral.gain == 0.4);
+    CHECK_FALSE(copy.lateral_y);
+    d.lateral_y = drive{mode::servo, 2e5, 0.6, 0.7};
+    clast::from_bytes(clast::to_bytes(d), copy);
+    REQUIRE(copy.lateral_y);
+    CHECK(copy.lateral_y->value == 2e5);
+    CHECK(copy.lateral_y->max_speed == 0.6);
 }

@@ -28,6 +28,23 @@ struct not_const {
     double utilisation(const criteria::grain_load&) { return 0.0; }
 };
 
+/// Optional members of another form would be passed over in silence.
+struct active_needs_not_const : archetype {
+    criteria::needs active_needs() { return needs; }
+};
+struct active_needs_as_number : archetype {
+    unsigned active_needs() const { return 0; }
+};
+struct strength_without_grain : archetype {
+    double strength_factor() const { return 1.0; }
+};
+/// And with them.
+struct complete : archetype {
+    using archetype::archetype;
+    criteria::needs active_needs() const { return criteria::needs::stress; }
+    float strength_factor(std::int64_t grain) const { return 2.0F * static_cast<float>(grain); }
+};
+
 struct absent {
     static constexpr bool evaluated = false;
 };
@@ -38,6 +55,9 @@ static_assert(criteria::criterion<absent> && !criteria::evaluated_criterion<abse
 static_assert(!criteria::criterion<without_needs>);
 static_assert(!criteria::criterion<not_const>);
 static_assert(!criteria::criterion<int>);
+static_assert(!criteria::criterion<active_needs_not_const> && !criteria::criterion<active_needs_as_number>);
+static_assert(!criteria::criterion<strength_without_grain>);
+static_assert(criteria::evaluated_criterion<complete>);
 
 } // namespace
 
@@ -45,6 +65,12 @@ TEST_CASE("the poorest criterion can be asked, and needs what its type declares"
     const archetype c(1);
     CHECK(c.utilisation({}) == 0.25);
     CHECK(criteria::needs_of(c) == criteria::needs::nothing);
+}
+
+TEST_CASE("strength of a grain over that of its like: the criterion's, or 1") {
+    CHECK(criteria::strength_factor_of(archetype(1), 3) == 1.0);
+    CHECK(criteria::strength_factor_of(complete(1), 3) == 6.0);
+    CHECK(criteria::needs_of(complete(1)) == criteria::needs::stress);
 }
 
 TEST_CASE("needs are sets") {
@@ -56,4 +82,8 @@ TEST_CASE("needs are sets") {
     CHECK(contains(both, both));
     CHECK_FALSE(contains(needs::stress, both));
     CHECK_FALSE(contains(both, needs::grain_id));
+    for (const needs one : {needs::largest_force, needs::largest_contact, needs::stress, needs::grain_id,
+                            needs::coordination, needs::neighbour_forces, both, needs::nothing})
+        CHECK(contains(criteria::everything, one));
+    CHECK_FALSE(contains(criteria::everything, static_cast<needs>(64)));
 }

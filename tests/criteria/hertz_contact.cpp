@@ -80,6 +80,17 @@ TEST_CASE("calibrated on the crushing test the limit pressure is GPa, and the li
     check(strong, 5.61e9, 5.97e9, 10.2e9);
 }
 
+TEST_CASE("Hertz by the contact itself: where its modulus is not known it is that of two grains, or of a rigid wall") {
+    const auto c = hertz_contact::calibrated(crushing_strength(medium), 46.8e9, 0.3, hertz_rule::contact);
+    criteria::grain_load load = grain(0.02);
+    load.contact_radius = 0.005; // of two equal grains, as calibrated
+    CHECK(c.limit(load) == Approx(medium * 4e-4).epsilon(1e-13));
+    load.contact_radius = 0.01, load.contact_at_wall = true; // doubles r' and E': the same limit
+    CHECK(c.limit(load) == Approx(medium * 4e-4).epsilon(1e-13));
+    load.contact_radius = 0.005; // a smaller pebble at the wall
+    CHECK(c.limit(load) == Approx(0.25 * medium * 4e-4).epsilon(1e-13));
+}
+
 TEST_CASE("Hertz: the limit grows as d^(2 - 9/m), and scatter of strength enters cubed") {
     const auto c = hertz_contact::calibrated(crushing_strength(medium, 0.02, 12.0));
     CHECK(std::log(c.limit(grain(0.04)) / c.limit(grain(0.01))) / std::log(4.0) ==

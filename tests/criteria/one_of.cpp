@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <clast/criteria/weibull.hpp>
+
 #include <catch.hpp>
 
 #include "crushing.hpp"
@@ -63,6 +65,25 @@ TEST_CASE("a criterion picked at run time needs only what the picked model needs
     CHECK(needs_of(c) == needs::stress);
     const any copy = c; // NOLINT: copies, does not nest
     CHECK(copy.model.index() == 2);
+}
+
+TEST_CASE("strength that scatters is that of the model picked") {
+    using scattered = one_of<weibull<nominal_force>, weibull<octahedral>, mean_stress>;
+    const crushing_strength s(1e6);
+    const scattered first = weibull<nominal_force>{{s}, 5.0, 3}, second = weibull<octahedral>{{s}, 5.0, 4},
+                    third = mean_stress{s};
+    for (std::int64_t g = 0; g < 5; ++g) {
+        CHECK(strength_factor_of(first, g) == weibull_factor(3, g, 5.0));
+        CHECK(strength_factor_of(second, g) == weibull_factor(4, g, 5.0));
+        CHECK(strength_factor_of(third, g) == 1.0);
+        CHECK(strength_factor_of(any(mean_stress{s}), g) == 1.0);
+        // scatter of what is picked already scatters
+        const weibull<scattered> both{first, 7.0, 9};
+        CHECK(strength_factor_of(both, g) == weibull_factor(9, g, 7.0) * weibull_factor(3, g, 5.0));
+        grain_load load;
+        load.diameter = 0.02, load.grain = g, load.largest_force = 400.0;
+        CHECK(both.utilisation(load) == Approx(1.0 / strength_factor_of(both, g)).epsilon(1e-13));
+    }
 }
 
 TEST_CASE("an unknown criterion is refused with the choices") {

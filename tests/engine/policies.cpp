@@ -5,7 +5,9 @@
 
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
+#include <clast/constraints/held.hpp>
 #include <clast/criteria/one_of.hpp>
+#include <clast/fields/gravity.hpp>
 #include <clast/searches/brute_force.hpp>
 #include <clast/spaces/periodic.hpp>
 
@@ -47,6 +49,16 @@ struct wrong_space : triaxial_policies_default {
 struct clusters_in_a_cell : triaxial_policies_default {
     using space = spaces::periodic;
 };
+struct wrong_field : triaxial_policies_default {
+    using field = spaces::open;
+};
+struct wrong_constraint : triaxial_policies_default {
+    using constraint = fields::gravity;
+};
+struct heavy_and_held : triaxial_policies_default {
+    using field = fields::gravity;
+    using constraint = constraints::held;
+};
 struct incomplete {
     using contact = contacts::linear;
 };
@@ -56,6 +68,8 @@ static_assert(!simulator_policies<wrong_contact> && !simulator_policies<wrong_bo
 static_assert(!simulator_policies<wrong_search> && !simulator_policies<wrong_criterion>);
 static_assert(!simulator_policies<wrong_replacement> && !simulator_policies<incomplete> &&
               !simulator_policies<wrong_space> && !simulator_policies<clusters_in_a_cell> && !simulator_policies<int>);
+static_assert(simulator_policies<heavy_and_held> && !simulator_policies<wrong_field> &&
+              !simulator_policies<wrong_constraint>);
 } // namespace
 
 TEST_CASE("a bundle is the paper's by default, and what is overridden changes nothing else") {

@@ -43,6 +43,11 @@ TEST_CASE("what is absent takes no room in a scene: no wall, no space, no breaka
     static_assert(std::is_empty_v<boundaries::none> && std::is_empty_v<spaces::open> && std::is_empty_v<unbroken>);
     static_assert(std::is_same_v<decltype(scene<spheres_alone>::broken), unbroken>);
     static_assert(std::is_same_v<decltype(scene<scenes::breakable<>>::broken), breakage_state>);
+    using none = scene<scenes::unbreakable<>>;
+    static_assert(std::is_same_v<decltype(none::replacing), nothing_replaced> && std::is_empty_v<nothing_replaced>);
+    static_assert(std::is_same_v<none::work, range_work> && !none::replaces && !none::breakable);
+    using replaces = replacement_state<replacements::modified>;
+    static_assert(sizeof(none) + sizeof(breakage_state) + sizeof(replaces) <= sizeof(scene<scenes::breakable<>>));
     static_assert(sizeof(scene<in_a_cell>) >=
                   sizeof(scene<spheres_alone>) + sizeof(spaces::periodic) + sizeof(spaces::crossings));
     SUCCEED("checked at compile time");

@@ -59,16 +59,27 @@ inline boundaries::cylinder_settings cylinder_around(const bodies::clumps& sp, d
 }
 
 template <class P>
-requires(!P::replacement::makes_bonds) engine_settings<P> settings() {
+requires(!P::replacement::replaces) engine_settings<P> settings() {
     return {.grain_contact = contacts::linear::between(pebble, pebble),
             .platen_contact = contacts::linear::between(pebble, platen),
             .lateral_contact = contacts::linear::between(pebble, membrane),
             .breakage = {},
             .replacement = {}};
 }
+/// Grains of crushing strength sigma0 (Pa) that are replaced by what has no bonds.
+template <class P>
+requires(P::replacement::replaces &&
+         !replacements::makes_bonds<typename P::replacement>()) engine_settings<P> settings(double sigma0) {
+    return {.grain_contact = contacts::linear::between(pebble, pebble),
+            .platen_contact = contacts::linear::between(pebble, platen),
+            .lateral_contact = contacts::linear::between(pebble, membrane),
+            .breakage = {criteria::crushing_strength(sigma0)},
+            .replacement = {}};
+}
 /// Grains of crushing strength sigma0 (Pa); `bond_strength` scales both strengths of the bonds of Table 1.
 template <class P>
-requires(P::replacement::makes_bonds) engine_settings<P> settings(double sigma0, double bond_strength = 1.0) {
+requires(replacements::makes_bonds<typename P::replacement>()) engine_settings<P> settings(double sigma0,
+                                                                                           double bond_strength = 1.0) {
     bonds::parallel bond;
     bond.tensile_strength *= bond_strength;
     bond.cohesion *= bond_strength;
@@ -122,7 +133,7 @@ template <class P> double residual(const engine<P>& e) {
     const engine_totals& t = e.totals();
     const body_losses lost = e.losses();
     return t.boundary_work + t.initial_energy - e.kinetic_energy() - e.elastic_energy() - lost.friction - lost.damping -
-           t.bond_dissipation;
+           t.bond_dissipation - e.potential_energy();
 }
 
 /// Two tumbling clumps that hit each other off centre, far from any wall.

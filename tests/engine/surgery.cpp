@@ -7,11 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <clast/bonds/parallel.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/io/archive.hpp>
+#include <clast/measure/digest.hpp>
 #include <clast/measure/stress.hpp>
 
 #include <catch.hpp>
@@ -30,10 +33,10 @@ struct total {
     vec3 momentum, angular;
 };
 /// Of all bodies, at the instant of the clumps.
-total total_of(const engine<brittle>& e) {
+template <class P> total total_of(const scene<P>& e) {
     const bodies::clumps& s = e.grains;
     total t;
-    t.energy = e.kinetic_energy();
+    t.energy = rooms::kinetic_energy(e);
     for (std::size_t g = 0; g < s.grain_count(); ++g) {
         if (!s.is_clump(g)) continue;
         const double m = s.mass_of(s.grains[g]);
@@ -41,15 +44,134 @@ total total_of(const engine<brittle>& e) {
         t.momentum += m * s.motion[g].v;
         t.angular += m * cross(s.motion[g].x, s.motion[g].v) + s.turning[g].l;
     }
-    for (const std::int32_t b : e.breakage().balls) {
+    e.broken.each_ball(s, [&](std::int32_t b, const body_motion& ball) {
         const auto p = static_cast<std::size_t>(b);
-        const body_motion& ball = s.motion[s.grain_count() + p];
         t.mass += s.ball_mass(p);
         t.momentum += s.ball_mass(p) * ball.v;
         t.angular += s.ball_mass(p) * cross(s.pebbles[p].x, ball.v) + s.ball_inertia(p) * ball.w;
-    }
+    });
     return t;
 }
+template <class P> total total_of(const engine<P>& e) { return total_of(e.state()); }
+/// Nothing but owners differs between two engines at the same instant.
+template <class P, class Q> void check_same_motion(const engine<P>& e, const engine<Q>& rigid) {
+    const total before = total_of(rigid), after = total_of(e);
+    CHECK(after.mass == Approx(before.mass).epsilon(1e-14));
+    CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(before.momentum));
+    CHECK(norm(after.angular - before.angular) < 1e-12 * norm(before.angular));
+    CHECK(after.energy == Approx(before.energy).epsilon(1e-12));
+    for (std::size_t p = 0; p < e.grains.pebble_count(); ++p)
+        CHECK(norm(e.grains.pebbles[p].x - rigid.grains.pebbles[p].x) < 1e-15);
+}
+/// Grains lie in the order of their pebbles, share them out, and lists are sorted by them.
+template <class P> void check_tables(const engine<P>& e) {
+    const bodies::clumps& s = e.grains;
+    std::size_t next = 0;
+    std::vector<int> seen(s.grain_count(), 0);
+    for (std::size_t g = 0; g < s.grain_count(); ++g) {
+        const index_range own = s.pebbles_of(g);
+        CHECK(own.begin == next);
+        next = own.end;
+        ++seen.at(static_cast<std::size_t>(s.grains[g].id));
+        for (std::size_t p = own.begin; p < own.end; ++p) {
+            CHECK(s.mother[p] == static_cast<std::int32_t>(g));
+            const auto as_ball = static_cast<std::int32_t>(s.ball(static_cast<std::int32_t>(p)));
+            CHECK(s.owner[p] == (s.is_clump(g) ? static_cast<std::int32_t>(g) : as_ball));
+        }
+    }
+    CHECK(next == s.pebble_count());
+    CHECK(seen == std::vector<int>(s.grain_count(), 1)); // numbers for life
+    const auto order = e.state().pair_order();
+    const auto& pairs = e.heavy_contacts().pairs;
+    CHECK(std::is_sorted(pairs.begin() + static_cast<std::ptrdiff_t>(e.heavy_contacts().shared), pairs.end(), order));
+    CHECK(std::is_sorted(e.light_contacts().pairs.begin(), e.light_contacts().pairs.end(), order));
+}
+
+/// A replacement of one's own: a grain at its limit becomes two rigid halves, as long as it has four pebbles.
+struct in_halves {
+    static constexpr bool replaces = true, makes_bonds = false;
+    int every = 1;
+
+    int looks_every() const { return every; }
+    template <class View> std::optional<replacements::nothing> wants(const View& clump) const {
+        if (clump.shape().pebbles.size() < 4 || clump.utilisation() < 1.0) return std::nullopt;
+        return replacements::nothing{};
+    }
+    template <class Surgery> void act(std::int32_t grain, replacements::nothing, Surgery& surgery) const {
+        const auto n = static_cast<std::int32_t>(surgery.shape_of(grain).pebbles.size());
+        surgery.split(grain, std::vector<replacements::pebble_run>{{0, n / 2}, {n / 2, n - n / 2}});
+    }
+};
+struct halving : scenes::breakable<> {
+    using replacement = in_halves;
+};
+
+/// One that does all there is: halves remember how often they were split, become balls 20 steps after the second time,
+/// and these get bonds if their number is even.
+struct in_stages {
+    static constexpr bool replaces = true, makes_bonds = true;
+    struct grain_state {
+        std::int32_t splits = 0;
+    };
+    using plan = std::int32_t; // where to cut
+    bonds::parallel bond;
+    std::size_t least_neighbours = 2;
+    int most_splits = 2, delay = 20;
+
+    int looks_every() const { return 2; }
+    template <class View> std::optional<plan> wants(const View& clump) const {
+        if (clump.shape().pebbles.size() < 2 || clump.state().splits >= most_splits ||
+            clump.neighbours() < least_neighbours || clump.utilisation() < 1.0)
+            return std::nullopt;
+        return static_cast<plan>(clump.pebble_loads().size()) / 2;
+    }
+    template <class Surgery> void act(std::int32_t grain, plan cut, Surgery& surgery) const {
+        const auto n = static_cast<std::int32_t>(surgery.shape_of(grain).pebbles.size());
+        if (++surgery.state(grain).splits == 2) surgery.again_in(grain, delay);
+        surgery.split(grain, std::vector<replacements::pebble_run>{{0, cut}, {cut, n - cut}});
+    }
+    template <class Surgery> void again(std::int32_t grain, Surgery& surgery) const {
+        surgery.release(grain);
+        const std::size_t bonds = surgery.shape_of(grain).bonds.size();
+        if (bonds > 0 && grain % 2 == 0)
+            surgery.bond(grain, std::vector<bonds::state>(bonds), surgery.strength_factor(grain));
+    }
+};
+/// Balls for some steps, bonded, and then rigid again, in so many parts.
+struct thaws {
+    static constexpr bool replaces = true, makes_bonds = true;
+    struct grain_state {
+        std::int32_t frozen = 0;
+    };
+    bonds::parallel bond;
+    int span = 30;
+    std::int32_t parts = 2;
+
+    int looks_every() const { return 1; }
+    template <class View> std::optional<replacements::nothing> wants(const View& clump) const {
+        if (clump.state().frozen > 0 || clump.utilisation() < 1.0) return std::nullopt;
+        return replacements::nothing{};
+    }
+    template <class Surgery> void act(std::int32_t grain, replacements::nothing, Surgery& surgery) const {
+        surgery.release(grain);
+        surgery.bond(grain, std::vector<bonds::state>(surgery.shape_of(grain).bonds.size()), 1.0);
+        surgery.again_in(grain, span);
+    }
+    template <class Surgery> void again(std::int32_t grain, Surgery& surgery) const {
+        const auto n = static_cast<std::int32_t>(surgery.shape_of(grain).pebbles.size());
+        std::vector<replacements::pebble_run> runs;
+        for (std::int32_t k = 0; k < parts; ++k) runs.push_back({k * n / parts, (k + 1) * n / parts - k * n / parts});
+        ++surgery.state(grain).frozen;
+        surgery.freeze(grain, runs);
+    }
+};
+struct thawing : scenes::breakable<> {
+    using replacement = thaws;
+};
+struct staged : scenes::breakable<> {
+    using replacement = in_stages;
+};
+
 double largest_bond_utilisation(const engine<brittle>& e) {
     const bonds::cluster_pool& pool = e.breakage().pools[0];
     double u = 0.0;
@@ -72,14 +194,8 @@ TEST_CASE("at the swap no momentum, angular momentum, kinetic energy, mass or po
         while (e.totals().replaced == 0) e.step(), rigid.step();
         REQUIRE(e.totals().replaced == 2);
         rigid.place_all();
-        const total before = total_of(rigid), after = total_of(e);
-        CHECK(after.mass == Approx(before.mass).epsilon(1e-14));
-        CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(before.momentum));
-        CHECK(norm(after.angular - before.angular) < 1e-12 * norm(before.angular));
-        CHECK(after.energy == Approx(before.energy).epsilon(1e-12));
+        check_same_motion(e, rigid);
         CHECK(e.grains.solid_volume() == volume);
-        for (std::size_t p = 0; p < e.grains.pebble_count(); ++p)
-            CHECK(norm(e.grains.pebbles[p].x - rigid.grains.pebbles[p].x) < 1e-15);
         CHECK(e.dt() == rigid.dt());
     }
 }
@@ -269,4 +385,310 @@ TEST_CASE("breaking grains in a packing: fragments, contacts, step and ledger st
     const double through = std::max(t.boundary_work - work, e.losses().friction + e.losses().damping - lost);
     INFO("residual " << scenes::residual(e) - open << " of " << through);
     CHECK(std::abs(scenes::residual(e) - open) < 1e-3 * through);
+}
+
+TEST_CASE("a clump in halves: no momentum, angular momentum, kinetic energy, mass or position jumps") {
+    for (const shape& grain : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)}) {
+        auto s = scenes::settings<halving>(1.0);
+        s.scheme.damping = 0.0;
+        engine<halving> e = scenes::collision(s, grain);
+        engine<halving> rigid = e;
+        rigid.breakage_on = false;
+        while (e.totals().replaced == 0) e.step(), rigid.step();
+        REQUIRE(e.totals().replaced == 2);
+        rigid.place_all();
+        check_same_motion(e, rigid);
+        check_tables(e);
+        REQUIRE(e.grains.grain_count() == 4);
+        CHECK((e.grains.grains[0].id == 0 && e.grains.grains[1].id == 2));
+        CHECK((e.grains.grains[2].id == 1 && e.grains.grains[3].id == 3));
+        // equal runs of one shape are of one shape
+        CHECK(e.grains.shapes.size() == 3);
+        CHECK((e.grains.grains[1].shape == e.grains.grains[3].shape && e.grains.grains[1].shape == 2));
+        for (std::size_t g = 0; g < 4; ++g) {
+            vec3 centre;
+            double mass = 0.0;
+            const index_range own = e.grains.pebbles_of(g);
+            for (std::size_t p = own.begin; p < own.end; ++p) {
+                centre += e.grains.ball_mass(p) * e.grains.pebbles[p].x;
+                mass += e.grains.ball_mass(p);
+            }
+            CHECK(norm(centre / mass - e.grains.centre(g)) < 1e-16);
+            CHECK(mass == Approx(e.grains.body_mass(g)).epsilon(1e-14));
+        }
+        const double elastic = e.elastic_energy(), bonds = e.totals().bond_dissipation;
+        CHECK(elastic == Approx(rigid.elastic_energy()).epsilon(1e-9)); // the halves touch without overlap
+        CHECK(std::abs(bonds) < 1e-9 * elastic);
+        const double dt = e.dt();
+        e.step();
+        CHECK(e.dt() < dt); // of lighter bodies
+        e.place_all();
+        for (std::size_t p = 0; p < e.grains.pebble_count(); ++p) // which turn like the whole
+            CHECK(norm(e.grains.pebbles[p].x - rigid.grains.pebbles[p].x) < 1.1 * e.dt() * 3.0);
+        const total start = total_of(e);
+        for (int k = 0; k < 400; ++k) e.step();
+        const total end = total_of(e);
+        check_tables(e);
+        CHECK(norm(end.momentum - start.momentum) < 1e-12 * norm(start.momentum));
+        CHECK(norm(end.angular - start.angular) < 1e-11 * norm(start.angular));
+    }
+}
+
+TEST_CASE("contacts go on with their histories when a grain of a packing is split") {
+    auto e =
+        scenes::packed<halving>(scenes::settings<halving>(never), shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 6000);
+    engine<halving> rigid = e;
+    e.settings.breakage.strength.sigma0 = 6e5;
+    e.breakage_on = true;
+    while (e.totals().replaced == 0) e.step(), rigid.step();
+    check_tables(e);
+    const auto compare = [&](double tolerance) {
+        const auto &mine = e.heavy_contacts(), &theirs = rigid.heavy_contacts();
+        std::size_t rubbing = 0;
+        for (std::size_t k = 0; k < theirs.size(); ++k) {
+            const auto& was = theirs.history[k];
+            const double size = norm(vec3{was.x, was.y, was.z});
+            if (size < 0.5) continue;
+            ++rubbing;
+            const std::size_t at = scenes::position(mine, theirs.pairs[k]);
+            REQUIRE(at < mine.size());
+            const auto& is = mine.history[at];
+            CHECK(norm(vec3{is.x - was.x, is.y - was.y, is.z - was.z}) <= tolerance * size);
+        }
+        CHECK(rubbing > 20);
+    };
+    compare(0.0);
+    e.step(), rigid.step(); // lists have been made anew
+    check_tables(e);
+    compare(0.05);
+}
+
+namespace {
+/// A packing that is crushed; `stored`: half way from its bytes.
+template <class P> engine<P> crushed(int threads, bool stored) {
+    auto s = scenes::settings<P>(never);
+    s.run = execution(threads);
+    s.contacts_per_thread = 8; // cut even small scenes
+    auto e = scenes::packed<P>(s, shapes::apollonian_14(0.02), 20, 0.045, 2e5, 3000);
+    engine<P> fresh = e;
+    const auto press = [](engine<P>& one) {
+        one.settings.breakage.strength.sigma0 = 2e5;
+        one.breakage_on = true;
+        one.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.1};
+    };
+    press(e), press(fresh);
+    // right behind a step that has split: lists are still to be made
+    std::int64_t splits = 0;
+    for (int k = 0; k < 300 || e.totals().replaced == splits; ++k) splits = e.totals().replaced, e.step();
+    e.take_events();
+    if (stored) {
+        from_bytes(to_bytes(e), fresh);
+        std::swap(e, fresh);
+    }
+    const std::int64_t rest = 1200 - e.totals().steps % 1000;
+    e.step(rest);
+    e.take_events();
+    check_tables(e);
+    return e;
+}
+} // namespace
+
+TEST_CASE("threads and checkpoints make no difference to what is split, remembered and asked about again") {
+    const auto digest_of = [](auto e) { return measure::digest_of_state(e); };
+    SECTION("halves of halves") {
+        const engine<halving> one = crushed<halving>(1, false);
+        CHECK(one.totals().replaced > 20);
+        CHECK(one.grains.shapes.size() > 4);
+        CHECK(digest_of(one) == digest_of(crushed<halving>(3, false)));
+        CHECK(digest_of(one) == digest_of(crushed<halving>(2, true)));
+        CHECK(to_bytes(one) == to_bytes(crushed<halving>(3, true)));
+    }
+    SECTION("balls that freeze in parts") {
+        const engine<thawing> one = crushed<thawing>(1, false);
+        std::size_t frozen = 0;
+        for (const grain& g : one.grains.grains) frozen += g.is_whole == g.cluster && g.shape > 0;
+        CHECK(frozen > 10);
+        CHECK(digest_of(one) == digest_of(crushed<thawing>(3, false)));
+        CHECK(digest_of(one) == digest_of(crushed<thawing>(2, true)));
+        CHECK(to_bytes(one) == to_bytes(crushed<thawing>(3, true)));
+    }
+    SECTION("then balls, loose and bonded") {
+        const engine<staged> one = crushed<staged>(1, false);
+        CHECK(one.totals().replaced > 20);
+        std::size_t loose = 0, bonded = 0;
+        for (const grain& g : one.grains.grains) loose += g.cluster == grain::is_loose, bonded += g.cluster >= 0;
+        CHECK((loose > 2 && bonded > 2));
+        CHECK(digest_of(one) == digest_of(crushed<staged>(3, false)));
+        CHECK(digest_of(one) == digest_of(crushed<staged>(2, true)));
+        CHECK(to_bytes(one) == to_bytes(crushed<staged>(3, true)));
+    }
+}
+
+TEST_CASE("a scene with balls beside clumps that are split keeps its momentum") {
+    auto s = scenes::settings<staged>(1.0, 1e6);
+    s.scheme.damping = 0.0;
+    s.replacement.least_neighbours = 1, s.replacement.most_splits = 3, s.replacement.delay = 1;
+    engine<staged> e = scenes::collision(s, shapes::apollonian_14(0.02));
+    const total start = total_of(e);
+    int steps_with_balls = 0;
+    bool split_beside_balls = false;
+    for (int k = 0; k < 300; ++k) {
+        const double dt = e.dt();
+        const total before = total_of(e);
+        const std::size_t grains = e.grains.grain_count();
+        const bool balls = e.breakage().has_balls();
+        e.step();
+        check_tables(e);
+        const total after = total_of(e);
+        CHECK(after.mass == Approx(start.mass).epsilon(1e-14));
+        split_beside_balls = split_beside_balls || (balls && e.grains.grain_count() > grains);
+        if (balls && e.dt() != dt) continue; // the spans of balls and clumps differ when the step changes
+        steps_with_balls += balls;
+        CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(start.momentum));
+    }
+    CHECK(steps_with_balls > 100);
+    CHECK(split_beside_balls);
+}
+
+TEST_CASE("a clump at rest between platens goes on in halves, and the ledger stays closed") {
+    engine<halving> e = scenes::pressed(scenes::settings<halving>(never), 300.0);
+    const double left = scenes::residual(e), stored = e.elastic_energy();
+    scenes::set_utilisation(e, 1.01);
+    e.step();
+    REQUIRE(e.totals().replaced == 1);
+    CHECK(e.elastic_energy() == Approx(stored).epsilon(1e-6));
+    for (int k = 0; k < 2000; ++k) e.step();
+    CHECK(std::abs(scenes::residual(e) - left) < 2e-3 * stored);
+}
+
+TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the ledger stays closed") {
+    for (const std::int32_t parts : {1, 2, 5})
+        for (const double strength : {1e6, 0.02}) { // of the bonds: many break in the second case
+            auto settings = scenes::settings<thawing>(1.0, strength);
+            settings.scheme.damping = 0.0;
+            settings.replacement.parts = parts;
+            engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+            while (e.breakage().balls.empty()) e.step();
+            e.step(20);
+            scene<thawing> s = e.state();
+            const total before = total_of(s);
+            const auto sum = [&] {
+                return rooms::kinetic_energy(s) + rooms::elastic_energy(s) + s.totals.bond_dissipation;
+            };
+            const double held = sum();
+            const std::vector<pebble_pair> carried = s.asleep;
+            REQUIRE((s.broken.balls.size() == 28 && s.light.size() > 0));
+            rooms::surgery<scene<thawing>> room(s);
+            for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
+            room.finish();
+            REQUIRE((s.broken.balls.empty() && s.grains.grain_count() == 2 * static_cast<std::size_t>(parts)));
+            const total after = total_of(s);
+            CHECK(after.mass == Approx(before.mass).epsilon(1e-14));
+            CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(before.momentum));
+            CHECK(norm(after.angular - before.angular) < 1e-12 * norm(before.angular));
+            CHECK(after.energy < before.energy);
+            double contacts = 0.0; // between parts, which no list has yet
+            for (const pebble_pair& p : carried) {
+                if (s.grains.body_of(p.i) == s.grains.body_of(p.j)) continue;
+                const double depth = s.radius(p.i) + s.radius(p.j) - norm(s.position(p.i) - s.position(p.j));
+                contacts += s.settings.grain_contact.stored({0, 0, 1, depth, 1, 1}, {});
+            }
+            CHECK(sum() + contacts == Approx(held).epsilon(1e-12));
+            std::vector<vec3> places;
+            for (const clump_pebble& p : s.grains.pebbles) places.push_back(p.x);
+            for (std::size_t g = 0; g < s.grains.grain_count(); ++g) s.grains.place(g);
+            for (std::size_t p = 0; p < places.size(); ++p) CHECK(norm(places[p] - s.grains.pebbles[p].x) < 1e-16);
+
+            // the same inside an engine, which goes on
+            while (e.grains.grain_count() == 2 && !e.breakage().balls.empty()) e.step();
+            e.take_events();
+            check_tables(e);
+            const total start = total_of(e);
+            for (int k = 0; k < 300; ++k) e.step();
+            const total end = total_of(e);
+            CHECK(norm(end.momentum - start.momentum) < 1e-12 * norm(start.momentum));
+            CHECK(norm(end.angular - start.angular) < 1e-10 * norm(start.angular));
+        }
+}
+
+TEST_CASE("contacts of balls that freeze go on with their histories") {
+    auto settings = scenes::settings<thawing>(1.0, 1e6);
+    settings.scheme.damping = 0.0;
+    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+    while (e.breakage().balls.empty()) e.step();
+    scene<thawing> s = e.state();
+    rooms::renew_lists(s); // contacts have come to the list of balls
+    rooms::surgery<scene<thawing>> room(s);
+    std::size_t rubbing = 0;
+    for (auto& h : s.light.history) h = {1.0 + static_cast<double>(rubbing++), 2.0, 3.0};
+    const auto was = s.light;
+    for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
+    room.finish();
+    rooms::renew_lists(s);
+    CHECK(s.light.size() == 0);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < s.heavy.size(); ++k) { // others have come near
+        const std::size_t at = scenes::position(was, s.heavy.pairs[k]);
+        CHECK(s.heavy.history[k].x == (at < was.size() ? was.history[at].x : 0.0));
+        kept += at < was.size();
+    }
+    CHECK(kept > 0);
+}
+
+TEST_CASE("surgery refuses what it cannot do, with an error") {
+    engine<staged> e = scenes::collision(scenes::settings<staged>(never));
+    scene<staged> s(e.settings, e.grains, e.boundary, {});
+    s.broken.begin(s.grains, s.settings);
+    s.replacing.begin(s.grains.grain_count());
+    rooms::sort_pebbles(s);
+    s.near.margins.resize(s.grains.movable_count());
+    rooms::surgery<scene<staged>> room(s);
+    using runs = std::vector<replacements::pebble_run>;
+    CHECK_THROWS_AS(room.split(0, runs{}), input_error);
+    CHECK_THROWS_AS(room.split(0, runs{{0, 2}}), input_error);
+    CHECK_THROWS_AS(room.split(0, runs{{0, 2}, {3, 1}}), input_error);
+    CHECK_THROWS_AS(room.split(0, runs{{0, 4}, {4, 0}}), input_error);
+    CHECK_THROWS_AS(room.split(0, runs{{2, 2}, {0, 2}}), input_error);
+    CHECK_THROWS_AS(room.bond(0, std::vector<bonds::state>(6), 1.0), input_error); // still a clump
+    CHECK_THROWS_AS(room.again_in(0, 0), input_error);
+    room.split(0, runs{{0, 4}}); // changes nothing
+    CHECK((s.grains.grain_count() == 2 && s.totals.replaced == 0));
+    room.release(1);
+    CHECK_THROWS_AS(room.split(1, runs{{0, 2}, {2, 2}}), input_error); // no clump any more
+    CHECK_THROWS_AS(room.release(1), input_error);
+    CHECK_THROWS_AS(room.freeze(1, runs{{0, 2}}), input_error);
+    CHECK_THROWS_AS(room.freeze(0, runs{{0, 4}}), input_error); // a clump
+    CHECK_THROWS_AS(room.bond(1, std::vector<bonds::state>(5), 1.0), input_error);
+    room.bond(1, std::vector<bonds::state>(6), 1.0);
+    room.split(0, runs{{0, 1}, {1, 3}});
+    CHECK(s.broken.members[0] == std::vector<std::int32_t>{2}); // the cluster has moved up
+    CHECK(s.grains.owner == std::vector<std::int32_t>{0, 1, 1, 1, 7, 8, 9, 10});
+}
+
+TEST_CASE("what overlaps between two parts becomes a contact, whose energy no one has paid for") {
+    auto settings = scenes::settings<halving>(never);
+    bodies::clumps two = scenes::empty(make_shape("two", {{{0, 0, 0}, 0.005}, {{0.01 - 1.5e-11, 0, 0}, 0.005}}));
+    two.add(0, {}, {});
+    scene<halving> s(settings, two, boundaries::solid_strips(scenes::cylinder(0.1, 0.1)), {});
+    s.replacing.begin(1);
+    rooms::sort_pebbles(s);
+    s.near.margins.resize(1);
+    rooms::surgery<scene<halving>> room(s);
+    room.split(0, std::vector<replacements::pebble_run>{{0, 1}, {1, 1}});
+    CHECK(s.totals.bond_dissipation == Approx(-0.5 * settings.grain_contact.kn * 1.5e-11 * 1.5e-11).epsilon(1e-5));
+    CHECK((s.grains.grain_count() == 2 && s.totals.replaced == 1));
+}
+
+TEST_CASE("pairs are sorted again by the parts of a grain that is split, with what they remember") {
+    engine<halving> e = scenes::collision(scenes::settings<halving>(never));
+    scene<halving> s = e.state();
+    s.heavy.pairs = {{3, 4}, {0, 5}, {2, 5}}; // by second pebble: all are of the first grain
+    s.heavy.resize();
+    for (std::size_t k = 0; k < 3; ++k) s.heavy.history[k].x = static_cast<double>(k);
+    rooms::surgery<scene<halving>> room(s);
+    room.split(0, std::vector<replacements::pebble_run>{{0, 2}, {2, 2}});
+    room.finish();
+    CHECK(s.heavy.pairs == std::vector<pebble_pair>{{0, 5}, {3, 4}, {2, 5}});
+    CHECK((s.heavy.history[0].x == 1.0 && s.heavy.history[1].x == 0.0 && s.heavy.history[2].x == 2.0));
+    CHECK((s.near.must_search && s.estimate_due));
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <catch.hpp>
 
@@ -240,4 +241,43 @@ TEST_CASE("a shape is chosen by name, and an unknown name is refused with the ch
     } catch (const input_error& error) {
         CHECK(contains(error.what(), "14B, 4B, sphere"));
     }
+}
+
+TEST_CASE("a part of a shape: its pebbles, in their places, with their bonds and its own mass properties") {
+    const shape whole = shapes::apollonian_14(0.02);
+    const shape part = part_of(whole, 2, 6);
+    REQUIRE(part.pebbles.size() == 6);
+    double volume = 0.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+        volume += sphere_volume(part.pebbles[k].radius);
+        CHECK(part.pebbles[k].radius == whole.pebbles[2 + k].radius);
+        const vec3 place = part.mass_centre + rotate(part.to_input_frame, part.pebbles[k].offset);
+        CHECK(norm(place - whole.pebbles[2 + k].offset) < 1e-17);
+        CHECK(norm(part.pebbles[k].offset) + part.pebbles[k].radius <= part.circumscribed_radius);
+    }
+    CHECK(part.volume == volume);
+    CHECK(part.diameter == 2.0 * part.circumscribed_radius);
+    std::set<std::pair<int, int>> bonds;
+    for (const shape_bond& b : whole.bonds)
+        if (b.a >= 2 && b.b < 8) bonds.insert({b.a - 2, b.b - 2});
+    REQUIRE((part.bonds.size() == bonds.size() && bonds.size() > 5));
+    for (const shape_bond& b : part.bonds) CHECK(bonds.count({b.a, b.b}) == 1);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const double sum = second_moment(part, 0, 0) + second_moment(part, 1, 1) + second_moment(part, 2, 2);
+            const double expected = i == j ? sum - second_moment(part, i, i) : -second_moment(part, i, j);
+            CHECK(std::abs(expected - (i == j ? part.inertia_per_density[i] : 0.0)) < 1e-12 * sum);
+        }
+}
+
+TEST_CASE("a part that bonds do not hold together has none, and a part of one pebble is a sphere") {
+    const shape whole = shapes::apollonian_14(0.02);
+    CHECK(part_of(whole, 0, 2).bonds.empty()); // opposite pebbles
+    CHECK(part_of(whole, 6, 8).bonds.empty()); // the small ones, which do not touch each other
+    CHECK(part_of(whole, 5, 3).bonds.empty()); // a big one that touches one of two small ones
+    const shape one = part_of(whole, 13, 1);
+    CHECK((one.bonds.empty() && norm(one.pebbles[0].offset) == 0.0));
+    CHECK(one.circumscribed_radius == whole.pebbles[13].radius);
+    CHECK((one.inertia_per_density.x == one.inertia_per_density.y && one.inertia_per_density.y > 0.0));
+    CHECK(norm(one.mass_centre - whole.pebbles[13].offset) < 1e-18);
 }

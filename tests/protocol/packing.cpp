@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <clast/bodies/spheres.hpp>
+#include <clast/boundaries/box.hpp>
 #include <clast/io/archive.hpp>
 
 #include <catch.hpp>
@@ -68,4 +70,59 @@ TEST_CASE("a cloud too dense for its room is refused with the number that fits, 
     CHECK(text.find("about") != std::string::npos);
     CHECK_THROWS_AS(cloud(1, {0.009, 0.0, 1.0}, 1), input_error);
     CHECK_THROWS_AS(cloud(1, {1.0, 0.0, 0.019}, 1), input_error);
+}
+
+TEST_CASE("a cloud keeps off what is there already, whatever its size, and is the same as ever where nothing is") {
+    const protocol::cylinder room{0.06, 0.0, 0.15};
+    bodies::clumps s = cloud(30, room, 3);
+    protocol::add_cloud(s, 0, 30, room, 3);
+    REQUIRE(s.grain_count() == 60);
+    protocol::add_cloud(s, shapes::apollonian_14(0.01), 60, room, 3);
+    REQUIRE(s.grain_count() == 120);
+    REQUIRE(s.shapes.size() == 2);
+    for (std::size_t g = 0; g < 120; ++g)
+        for (std::size_t h = 0; h < g; ++h)
+            CHECK(norm(s.centre(g) - s.centre(h)) > s.bounding_radius(g) + s.bounding_radius(h));
+    const bodies::clumps once = cloud(30, room, 3);
+    for (std::size_t g = 0; g < 30; ++g) CHECK(norm(once.centre(g) - s.centre(g)) == 0.0);
+    // one that fills the room, and one far outside of it
+    bodies::spheres big;
+    big.add({0, 0, 0.075}, 0.07);
+    big.add({1e30, -1e30, 5.0}, 0.07);
+    CHECK_THROWS_AS(protocol::add_cloud(big, shapes::sphere(0.02), 30, room, 3), input_error);
+}
+
+TEST_CASE("a cloud of spheres stands where that of clumps of their size stands, and takes single spheres only") {
+    const protocol::cylinder room{0.06, 0.0, 0.15};
+    bodies::spheres s;
+    protocol::add_cloud(s, shapes::sphere(0.02), 40, room, 5);
+    const bodies::clumps other = cloud(40, room, 5);
+    REQUIRE(s.body_count() == 40);
+    for (std::size_t b = 0; b < 40; ++b) CHECK(norm(s.centre(b) - other.centre(b)) < 1e-15); // 4B: 0.02 by rounding
+    CHECK(s.pebbles[7].radius == 0.01);
+    std::string text;
+    try {
+        protocol::add_cloud(s, shapes::tetrahedron_4(0.02), 1, room, 5);
+    } catch (const input_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("grain") == 0);
+    CHECK(text.find("'4B'") != std::string::npos);
+    CHECK(text.find("shapes::sphere") != std::string::npos);
+    CHECK(text.find("bodies::clumps") != std::string::npos);
+    CHECK(s.body_count() == 40);
+}
+
+TEST_CASE("a cloud in a box fills its corners") {
+    boundaries::vessel_settings sizes;
+    sizes.radius = 0.1, sizes.top = 0.2, sizes.contact_stiffness_floor = 1e6;
+    const auto vessel = boundaries::box::made(sizes);
+    bodies::spheres s;
+    protocol::add_cloud(s, shapes::sphere(0.02), 200, protocol::inside(vessel), 1);
+    std::size_t corner = 0;
+    for (std::size_t b = 0; b < 200; ++b) {
+        CHECK(vessel.holds(s.centre(b), 0.01 * (1.0 - 1e-12)));
+        if (std::hypot(s.centre(b).x, s.centre(b).y) > 0.09) ++corner;
+    }
+    CHECK(corner > 20); // 0.21 of the section of centres
 }

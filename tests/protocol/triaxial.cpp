@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <clast/bodies/spheres.hpp>
+#include <clast/boundaries/box.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 
 #include <catch.hpp>
@@ -58,7 +60,8 @@ TEST_CASE("a setup that makes no sense is refused by the name of its member, wit
     names(refusal([](setup_type& s) { s.confining = 0_Pa; }), "confining");
     names(refusal([](setup_type& s) { s.tiles_per_ring = 40; }), "tiles_per_ring"); // 5 mm wide, pebbles 9 mm
     names(refusal([](setup_type& s) { s.tiles_per_ring = 5; }), "tiles_per_ring");
-    names(refusal([](setup_type& s) { s.rings = 36; }), "rings"); // 2 mm high
+    names(refusal([](setup_type& s) { s.rings = 36; }), "rings");                // 2 mm high
+    names(refusal([](setup_type& s) { s.rings = 36; }), "Take 8 rings at most"); // of 9 mm
     names(refusal([](setup_type& s) { s.diameter = 40_mm; }), "diameter");
     names(refusal([](setup_type& s) { s.height = 40_mm; }), "height");
     names(refusal([](setup_type& s) { s.porosity = 1.0; }), "porosity");
@@ -88,6 +91,51 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
     CHECK(test.sim().settings.lateral_contact.mu == 0.0);
 }
 
+TEST_CASE("a box counts its porosity in its own section, and has no use for rings and tiles") {
+    using in_box = scenes::unbreakable<boundaries::box>;
+    const triaxial_setup<in_box> s{.grain = shapes::tetrahedron_4(0.02),
+                                   .diameter = 66_mm,
+                                   .height = 75_mm,
+                                   .confining = 200_kPa,
+                                   .breakage = {},
+                                   .replacement = {},
+                                   .porosity = 0.62,
+                                   .rings = 1000,
+                                   .tiles_per_ring = 1};
+    const triaxial_test<in_box> test(s, protocol::preparation(66_mm, 75_mm));
+    const double volume = 0.066 * 0.066 * 0.075;
+    CHECK(test.sim().grains.solid_volume() / volume == Approx(0.38).margin(0.5 * s.grain.volume / volume));
+    CHECK(test.sim().boundary.volume() == Approx(1.8 * 1.8 * 1.8 * volume));
+}
+
+TEST_CASE("a test of spheres takes a single sphere as its grain, and says so") {
+    struct of_spheres : rigid {
+        using body = bodies::spheres;
+    };
+    triaxial_setup<of_spheres> s{.grain = shapes::tetrahedron_4(0.02),
+                                 .diameter = 66_mm,
+                                 .height = 75_mm,
+                                 .confining = 200_kPa,
+                                 .breakage = {},
+                                 .replacement = {},
+                                 .porosity = 0.62,
+                                 .rings = 3,
+                                 .tiles_per_ring = 8};
+    std::string text;
+    try {
+        const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
+    } catch (const input_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("grain") == 0);
+    CHECK(text.find("'4B', of 4 pebbles") != std::string::npos);
+    s.grain = shapes::sphere(0.02);
+    const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
+    const bodies::spheres& grains = test.sim().grains;
+    REQUIRE(grains.body_count() > 10);
+    for (std::size_t b = 0; b < grains.body_count(); ++b) CHECK(dot(grains.pebbles[b].v, grains.centre(b)) < 0.0);
+}
+
 TEST_CASE("the stages of the paper come in their order, the membrane with the consolidation, strain from shear on") {
     const std::vector<stage> s = protocol::triaxial_compression(30_cm, 70_cm, 2_MPa, 25_percent);
     std::vector<std::string> names;
@@ -103,6 +151,50 @@ TEST_CASE("the stages of the paper come in their order, the membrane with the co
     CHECK(s[4].lateral.value == Approx(2e6));
     CHECK(s[4].axial.value == 1e-4);
     CHECK(protocol::unloading(2_MPa, 10_kPa).axial.value < 0.0);
+}
+
+TEST_CASE("stages take sizes, stress and inertial number from the setup, or are compared with it") {
+    const auto taken = [](std::vector<stage> stages) -> std::vector<stage> {
+        return triaxial_test<rigid>(good(), std::move(stages)).protocol().plan.stages;
+    };
+    std::vector<stage> s = protocol::triaxial_compression(1_percent);
+    s.push_back(protocol::unloading(5_kPa));
+    const std::vector<stage> from = taken(s);
+    std::vector<stage> given = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent, 5e-3);
+    given.push_back(protocol::unloading(200_kPa, 5_kPa, 5e-3));
+    REQUIRE(from.size() == given.size());
+    for (std::size_t k = 0; k < from.size(); ++k) {
+        CHECK(from[k].name == given[k].name);
+        CHECK(from[k].axial.how == given[k].axial.how);
+        CHECK(from[k].axial.value == given[k].axial.value);
+        CHECK(from[k].lateral.value == given[k].lateral.value);
+        CHECK_FALSE(from[k].axial.of_setup);
+    }
+    const auto refused = [&](const std::vector<stage>& stages) -> std::string {
+        try {
+            (void)taken(stages);
+        } catch (const input_error& e) {
+            return e.what();
+        }
+        return {};
+    };
+    const auto names = [](const std::string& text, const char* what, const char* values) {
+        INFO(text);
+        CHECK(text.find(what) == 0);
+        CHECK(text.find(values) != std::string::npos);
+    };
+    names(refused(protocol::triaxial_compression(140_mm, 75_mm, 200_kPa, 1_percent)),
+          "diameter of the setup, and of stage 'compact'", "66 and 140 mm");
+    names(refused(protocol::triaxial_compression(66_mm, 150_mm, 200_kPa, 1_percent)),
+          "height of the setup, and of stage 'compact'", "75 and 150 mm");
+    names(refused(protocol::triaxial_compression(66_mm, 75_mm, 5_MPa, 1_percent)),
+          "confining of the setup, and of stage 'shear'", "200 and 5000 kPa");
+    // several on the way are well, and a preparation alone
+    std::vector<stage> more = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent);
+    more.insert(more.begin(), protocol::preparation(80_mm, 90_mm)[0]);
+    more.push_back(protocol::shear(300_kPa, 2_percent));
+    CHECK(refused(more).empty());
+    CHECK(refused(protocol::preparation(66_mm, 75_mm)).empty());
 }
 
 TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at 1 kPa, at its size") {

@@ -23,9 +23,19 @@ namespace clast {
 
 /// Where a mother grain is in the tables, and what has become of it.
 struct grain {
-    std::int32_t first = 0;    ///< first pebble; a grain's pebbles are consecutive
-    std::int32_t shape = 0;    ///< index into the shapes
-    std::int32_t cluster = -1; ///< number in the cluster pool of its shape once replaced; -1 while it is a clump
+    std::int32_t first = 0;          ///< first pebble; a grain's pebbles are consecutive
+    std::int32_t shape = 0;          ///< index into the shapes
+    std::int32_t cluster = is_whole; ///< number in the cluster pool of its shape once it is a cluster
+    std::int32_t id = 0;             ///< its number for life; its place in the table grows as others are split
+
+    static constexpr std::int32_t is_whole = -1; ///< a clump
+    static constexpr std::int32_t is_loose = -2; ///< balls that no bond joins
+};
+
+/// A run of consecutive pebbles of a grain that becomes a clump of its own.
+struct clump_part {
+    std::int32_t first = 0; ///< counted from the grain's first pebble
+    std::int32_t shape = 0; ///< made of these pebbles (part_of): its frame is that of the grain's shape
 };
 
 /// Orientation and angular momentum of a clump (world axes), in blocks of four numbers like its motion.
@@ -64,7 +74,9 @@ struct clumps {
     std::size_t grain_count() const { return grains.size(); }
     std::size_t pebble_count() const { return pebbles.size(); }
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
-    bool is_clump(std::size_t g) const { return grains[g].cluster < 0; }
+    /// Number of a grain for reports: it stays when others are cut into parts.
+    std::int32_t number_of(std::size_t g) const { return grains[g].id; }
+    bool is_clump(std::size_t g) const { return grains[g].cluster == grain::is_whole; }
     /// Number of the body that a pebble is when it moves on its own.
     std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
     double mass_of(const grain& g) const { return of_shape[static_cast<std::size_t>(g.shape)].mass; }
@@ -80,16 +92,17 @@ struct clumps {
         return v;
     }
 
+    /// Adds a shape, and returns its number.
+    std::int32_t kind_of(const shape& s) {
+        shapes.push_back(s);
+        return static_cast<std::int32_t>(shapes.size() - 1);
+    }
     /// Adds a clump at rest and returns its grain id.
     std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
-        for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
-            const double m = density * shapes[k].volume;
-            const vec3 i = density * shapes[k].inertia_per_density;
-            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
-        }
-        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, -1});
+        note_shapes();
+        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id});
         for (const shape_pebble& p : s.pebbles) {
             pebbles.push_back({centre + rotate(q, p.offset), p.radius});
             mother.push_back(id);
@@ -99,6 +112,51 @@ struct clumps {
         turning.push_back({q, {}});
         losses.push_back({});
         return id;
+    }
+
+    /// A clump becomes several, in the same place and with the same motion: momentum, angular momentum and kinetic
+    /// energy are kept to rounding. The parts stand in the grain's place, in the order of their pebbles, which they
+    /// share out among them without rest; grains behind it move up, so contact lists stay sorted by bodies. The first
+    /// part keeps the number for life and the losses. Pebbles must have been placed.
+    void split(std::size_t g, std::span<const clump_part> parts) {
+        const body_motion moved = motion[g];
+        const clump_rotation turned = turning[g];
+        const vec3 spin = spin_of(turned.q, turned.l, inverse_inertia(grains[g]));
+        divide(g, parts);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const shape& form = shapes[static_cast<std::size_t>(parts[k].shape)];
+            const vec3 arm = rotate(turned.q, form.mass_centre);
+            motion[g + k] = {moved.x + arm, moved.v + cross(spin, arm), spin, 1.0 / (density * form.volume)};
+            const quaternion q = unit(turned.q * form.to_input_frame);
+            turning[g + k] = {q, rotate(q, scale(density * form.inertia_per_density, rotate_back(q, spin)))};
+        }
+    }
+    /// The balls of a grain become clumps, with their momentum and angular momentum; tables as for split(). The frame
+    /// of the shapes is that of the world, from the first pebble of each. Returns the kinetic energy that is lost (J).
+    double freeze(std::size_t g, std::span<const clump_part> parts) {
+        std::vector<body_motion> moved;
+        std::vector<clump_rotation> turned;
+        double lost = 0.0;
+        for (const clump_part& part : parts) {
+            const shape& form = shapes[static_cast<std::size_t>(part.shape)];
+            const auto first = static_cast<std::size_t>(grains[g].first + part.first);
+            const vec3 centre = pebbles[first].x + form.mass_centre;
+            vec3 momentum, angular;
+            for (std::size_t p = first; p < first + form.pebbles.size(); ++p) {
+                const body_motion& one = motion[ball(static_cast<std::int32_t>(p))];
+                momentum += ball_mass(p) * one.v;
+                angular += ball_mass(p) * cross(pebbles[p].x - centre, one.v) + ball_inertia(p) * one.w;
+                lost += 0.5 * (ball_mass(p) * norm2(one.v) + ball_inertia(p) * norm2(one.w));
+            }
+            const double mass = density * form.volume;
+            const vec3 i = density * form.inertia_per_density, inverse{1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
+            turned.push_back({form.to_input_frame, angular});
+            moved.push_back({centre, momentum / mass, spin_of(form.to_input_frame, angular, inverse), 1.0 / mass});
+            lost -= 0.5 * norm2(momentum) / mass + rotational_energy(form.to_input_frame, angular, inverse);
+        }
+        divide(g, parts);
+        for (std::size_t k = 0; k < parts.size(); ++k) motion[g + k] = moved[k], turning[g + k] = turned[k];
+        return lost;
     }
 
     // ---- what an engine asks of bodies that it sweeps (here clumps) ------------------------------------------------
@@ -132,13 +190,29 @@ struct clumps {
         return static_cast<std::size_t>(mother[static_cast<std::size_t>(pebble)]);
     }
     const vec3& centre(std::size_t g) const { return motion[g].x; }
+    const vec3& velocity(std::size_t g) const { return motion[g].v; } ///< of the centre (m/s)
+    const vec3& spin(std::size_t g) const { return motion[g].w; }     ///< rad/s
+    void set_velocity(std::size_t g, const vec3& v) { motion[g].v = v; }
+    /// Sets the angular momentum with it.
+    void set_spin(std::size_t g, const vec3& w) {
+        const vec3 i = density * shape_of(grains[g]).inertia_per_density;
+        motion[g].w = w;
+        turning[g].l = rotate(turning[g].q, scale(i, rotate_back(turning[g].q, w)));
+    }
     double bounding_radius(std::size_t g) const { return shape_of(grains[g]).circumscribed_radius; }
     index_range pebbles_of(std::size_t g) const {
         const auto first = static_cast<std::size_t>(grains[g].first);
         return {first, first + shape_of(grains[g]).pebbles.size()};
     }
-    double body_mass(std::size_t g) const { return mass_of(grains[g]); }                                 ///< kg
-    vec3 body_inertia(std::size_t g) const { return density * shape_of(grains[g]).inertia_per_density; } ///< kg m^2
+    double body_mass(std::size_t g) const { return mass_of(grains[g]); } ///< kg
+    /// kg m^2; infinite about axes whose inverse is 0, about which a clump does not turn.
+    vec3 body_inertia(std::size_t g) const {
+        vec3 i = density * shape_of(grains[g]).inertia_per_density;
+        const vec3& inverse = inverse_inertia(grains[g]);
+        for (int a = 0; a < 3; ++a)
+            if (inverse[a] == 0.0) i[a] = std::numeric_limits<double>::infinity();
+        return i;
+    }
     mat3 body_axes(std::size_t g) const { return matrix(turning[g].q); }
     double kinetic_energy(std::size_t g) const {
         return 0.5 * mass_of(grains[g]) * norm2(motion[g].v) +
@@ -168,6 +242,8 @@ struct clumps {
             const vec3 stretch = allowed.stretch;
             with_widest_registers([ =, this, &s ](auto width)
                                       __attribute__((always_inline)) { this->fill(width, s, some, since, stretch); });
+            if constexpr (!integrators::forgetful<decltype(rule.scheme)>)
+                for (std::size_t k = 0; k < s.size; ++k) s.body[k] = some[k].body;
             clast::advance(s, rule);
             with_widest_registers([ =, this, &s, &wanted ](auto width) __attribute__((always_inline)) {
                 for (std::size_t k = 0; k < s.size; k += 4) {
@@ -212,6 +288,32 @@ struct clumps {
     }
 
   private:
+    /// Gives the pebbles of a grain to so many clumps in its place, whose motion is still to be set.
+    void divide(std::size_t g, std::span<const clump_part> parts) {
+        note_shapes();
+        const std::size_t more = parts.size() - 1, before = grains.size();
+        const grain whole = grains[g];
+        const auto up = static_cast<std::int32_t>(more), place = static_cast<std::int32_t>(g);
+        for (std::int32_t& o : owner) o += o > place ? up : 0; // balls, too, which are numbered behind all grains
+        for (std::int32_t& m : mother) m += m > place ? up : 0;
+        const auto open = [&](auto& table) {
+            table.insert(table.begin() + static_cast<std::ptrdiff_t>(g) + 1, more, {});
+        };
+        open(grains), open(motion), open(turning), open(losses);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
+            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id};
+            const index_range own = pebbles_of(g + k);
+            for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(g + k);
+        }
+    }
+    void note_shapes() {
+        for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
+            const double m = density * shapes[k].volume;
+            const vec3 i = density * shapes[k].inertia_per_density;
+            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
+        }
+    }
     /// Where the pebbles of a clump are: x = X + R o, by columns of R.
     template <std::size_t N> class placement {
       public:
@@ -253,7 +355,6 @@ struct clumps {
                 load[l] = bytes_of(one.load), move[l] = bytes_of(motion[g]), turn[l] = bytes_of(turning[g]);
                 then[l] = bytes_of(since[g]), common[l] = bytes_of(c);
                 reach[l] = c.reach;
-                s.body[k + l] = g;
             }
             row r[4];
             const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,
@@ -307,7 +408,7 @@ struct clumps {
     }
 };
 
-static_assert(swept<clumps>);
+static_assert(specimen<clumps>);
 
 } // namespace bodies
 } // namespace clast

@@ -11,6 +11,7 @@
 
 #include <clast/bodies/contact_list.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/grains/shape.hpp>
 #include <clast/integrators/concepts.hpp>
 #include <clast/integrators/leapfrog.hpp>
 
@@ -75,6 +76,7 @@ concept swept = std::movable<S> && requires(S& s, const S& c, std::size_t b, vec
     { c.inverse_mass_of(std::int32_t{}) } -> std::same_as<double>;
     c.view();
     { c.centre(b) } -> std::convertible_to<vec3>;
+    { c.velocity(b) } -> std::convertible_to<vec3>;
     { c.bounding_radius(b) } -> std::same_as<double>;
     { c.pebbles_of(b) } -> std::same_as<index_range>;
     { c.body_mass(b) } -> std::same_as<double>;
@@ -91,6 +93,22 @@ concept swept = std::movable<S> && requires(S& s, const S& c, std::size_t b, vec
     s.place(b);
     s.place(b, std::span<const std::int32_t>{});
     s.shift(b, x, x);
+    { c.smallest_mass() } -> std::same_as<double>;
+    { c.pebble_count() } -> std::same_as<std::size_t>;
+    { c.pebbles[b].x } -> std::convertible_to<vec3>;
+    { c.pebbles[b].radius } -> std::convertible_to<double>;
+    c.losses;
+};
+
+/// What a test asks of them beyond: it starts from an empty table and a density, adds grains of one shape, counts them
+/// and their volume. kind_of(shape) is what add() takes for it; it throws input_error where bodies cannot be of it.
+template <class S>
+concept specimen = swept<S> && std::default_initializable<S> &&
+    requires(S& s, const S& c, const shape& grain, vec3 x, quaternion q) {
+    s.density = 1.0;
+    s.add(s.kind_of(grain), x, q);
+    { c.grain_count() } -> std::same_as<std::size_t>;
+    { c.solid_volume() } -> std::same_as<double>;
 };
 } // namespace bodies
 } // namespace clast

@@ -159,6 +159,17 @@ template <class List, class Order> void join_shared(List& list, Order&& before) 
     list.shared = 0;
 }
 
+/// Sorts the pairs between two ranges and the others again, each for themselves, after the order has changed.
+template <class List, class Order> void sort_by(List& list, Order&& before) {
+    std::vector<std::uint32_t> order(list.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) { return before(list.pairs[a], list.pairs[b]); };
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(list.shared);
+    std::stable_sort(order.begin(), middle, less); // images of one pair stay as they stood
+    std::stable_sort(middle, order.end(), less);
+    list.reorder(order);
+}
+
 /// Half list of contacts. An empty history (frictionless law) takes no memory; rows are there after a step that was
 /// asked for them, and empty otherwise.
 template <class History> struct contact_list : pair_list {
@@ -207,6 +218,23 @@ template <class History> struct contact_list : pair_list {
         if (rows.size() != pairs.size()) rows.clear(); // written anew by the next step
     }
 };
+
+/// Takes the contacts off a list without shared pairs for which gone(pair).
+template <class History, class F> void erase_contacts(contact_list<History>& list, F&& gone) {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        if (gone(list.pairs[k])) continue;
+        list.pairs[n] = list.pairs[k];
+        if (!list.image.empty()) list.image[n] = list.image[k];
+        if constexpr (contact_list<History>::remembers) list.history[n] = list.history[k];
+        if (!list.rows.empty()) list.rows[n] = list.rows[k];
+        ++n;
+    }
+    list.pairs.resize(n);
+    if (!list.image.empty()) list.image.resize(n);
+    if constexpr (contact_list<History>::remembers) list.history.resize(n);
+    if (!list.rows.empty()) list.rows.resize(n);
+}
 
 /// For every body the rows that act on it, in the order of the list: what makes sums independent of threads.
 class incidence {

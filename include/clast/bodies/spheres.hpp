@@ -10,8 +10,11 @@
 #include <type_traits>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include <clast/bodies/concepts.hpp>
 #include <clast/bodies/contact_list.hpp>
+#include <clast/core/errors.hpp>
 #include <clast/core/packs.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/grains/shape.hpp>
@@ -42,8 +45,19 @@ struct spheres {
         losses.push_back({});
         return static_cast<std::int32_t>(pebbles.size() - 1);
     }
+    /// Radius of the grains of a shape (m). Throws input_error for one that is not a single sphere.
+    static double kind_of(const shape& s) {
+        if (s.pebbles.size() != 1)
+            throw input_error("grain", fmt::format("'{}', of {} pebbles", s.name, s.pebbles.size()),
+                              "one pebble, where bodies are spheres",
+                              "Take shapes::sphere(0.02), or bodies::clumps for the bundle's body.");
+        return s.pebbles.front().radius;
+    }
+    /// As for clumps, where a radius is the kind; a sphere has no orientation to keep.
+    std::int32_t add(double radius, const vec3& centre, const quaternion&) { return add(centre, radius); }
     std::size_t pebble_count() const { return pebbles.size(); }
     std::size_t grain_count() const { return pebbles.size(); }
+    static constexpr std::int32_t number_of(std::size_t g) { return static_cast<std::int32_t>(g); }
     double solid_volume() const {
         double v = 0.0;
         for (const pebble_motion& p : pebbles) v += sphere_volume(p.radius);
@@ -60,6 +74,10 @@ struct spheres {
     const vec3& spin_of_pebble(std::int32_t pebble) const { return pebbles[body_of(pebble)].w; }
     double inverse_mass_of(std::int32_t pebble) const { return pebbles[body_of(pebble)].inverse_mass; }
     const vec3& centre(std::size_t b) const { return pebbles[b].x; }
+    const vec3& velocity(std::size_t b) const { return pebbles[b].v; } ///< m/s
+    const vec3& spin(std::size_t b) const { return pebbles[b].w; }     ///< rad/s
+    void set_velocity(std::size_t b, const vec3& v) { pebbles[b].v = v; }
+    void set_spin(std::size_t b, const vec3& w) { pebbles[b].w = w; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
     double body_mass(std::size_t b) const { return 1.0 / pebbles[b].inverse_mass; }
@@ -68,9 +86,11 @@ struct spheres {
         return {i, i, i};
     }
     mat3 body_axes(std::size_t) const { return mat3::identity(); }
+    /// A sphere whose inverse_inertia is 0 does not turn: it has no energy of rotation.
     double kinetic_energy(std::size_t b) const {
         const pebble_motion& p = pebbles[b];
-        return 0.5 * (norm2(p.v) / p.inverse_mass + norm2(p.w) / p.inverse_inertia);
+        const double turning = p.inverse_inertia > 0.0 ? norm2(p.w) / p.inverse_inertia : 0.0;
+        return 0.5 * (norm2(p.v) / p.inverse_mass + turning);
     }
     reference refer(std::size_t b) const { return {pebbles[b].x}; }
     double moved(std::size_t b, const reference& since, const vec3& stretch) const {
@@ -159,6 +179,6 @@ struct spheres {
     };
 };
 
-static_assert(swept<spheres>);
+static_assert(specimen<spheres>);
 
 } // namespace clast::bodies

@@ -91,6 +91,13 @@ class cluster_pool {
         return c;
     }
 
+    /// Lets go of all bonds of a cluster; its number stays, for nobody.
+    void dissolve(std::size_t cluster) {
+        const std::size_t seat = seat_of(cluster);
+        for (std::size_t b = 0; b < bonds(); ++b) put(seat, b, {}), value(seat, b, alive) = 0.0;
+        intact_[seat] = 0;
+    }
+
     /// Gives clusters new seats if bonds broke or clusters came since the last time: those with many bonds first, of
     /// equally many those with the same bonds side by side, those without any behind all batches.
     void pack() {

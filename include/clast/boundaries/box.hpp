@@ -10,6 +10,7 @@
 
 #include <clast/boundaries/drive.hpp>
 #include <clast/boundaries/touch.hpp>
+#include <clast/boundaries/vessel_settings.hpp>
 #include <clast/control/servo.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
@@ -41,6 +42,19 @@ class box {
                               "> 0 N/m", "Take the stiffness of one pebble-wall contact.");
     }
 
+    /// The vessel of a test: a square prism whose half side is the radius, all six walls as stiff as platens. Has no
+    /// rings, tiles, gaps or smallest pebble.
+    static box made(const vessel_settings& s) {
+        return box({{-s.radius, -s.radius, s.bottom},
+                    {s.radius, s.radius, s.top},
+                    s.platen_stiffness,
+                    s.contact_stiffness_floor});
+    }
+    /// A box of these stiffnesses, at rest, where this one is now.
+    box resized(const vessel_settings& s) const {
+        return box({low_, high_, s.platen_stiffness, s.contact_stiffness_floor});
+    }
+
     const vec3& low() const { return low_; }
     const vec3& high() const { return high_; }
 
@@ -66,6 +80,8 @@ class box {
             if (!(x[a] > low_[a] - r && x[a] < high_[a] + r)) return true;
         return false;
     }
+    /// Whether a sphere has room inside, touching nothing.
+    bool holds(const vec3& x, double r) const { return !near(x, r); }
     int facet_count() const { return 6; }
     double stiffness(int) const { return set_.wall_stiffness; }
     double velocity(int facet) const { return speed_[axis_of(facet)]; }
@@ -75,13 +91,15 @@ class box {
         return l[(a + 1) % 3] * l[(a + 2) % 3];
     }
 
-    /// `d.platens` drives the walls normal to z, `d.lateral` the four others, each pair on its own load and area. A
-    /// lateral velocity is that of each wall, inward.
+    /// `d.platens` drives the walls normal to z, `d.lateral` those normal to x, `d.lateral_y` (`d.lateral` where there
+    /// is none) those normal to y, each pair on its own load and area. A lateral velocity is that of each wall, inward.
     void control(std::span<const facet_load> loads, const drives& d, double dt, std::span<const coupling> = {}) {
         check(d.platens, "drives.platens");
         check(d.lateral, "drives.lateral");
+        if (d.lateral_y) check(*d.lateral_y, "drives.lateral_y");
+        const std::array<const drive*, 3> of{&d.lateral, d.lateral_y ? &*d.lateral_y : &d.lateral, &d.platens};
         for (int a = 0; a < 3; ++a) {
-            const drive& mine = a == 2 ? d.platens : d.lateral;
+            const drive& mine = *of[static_cast<std::size_t>(a)];
             const facet_load& one = loads[static_cast<std::size_t>(lower(a))];
             const facet_load& two = loads[static_cast<std::size_t>(lower(a) + 1)];
             double& v = speed_[static_cast<std::size_t>(a)];
@@ -110,6 +128,9 @@ class box {
         return l.x * l.y * l.z;
     }
     double height() const { return high_.z - low_.z; }
+    double bottom() const { return low_.z; }
+    /// Half of the shorter horizontal side (m): radius of the widest upright cylinder that fits.
+    double radius() const { return 0.5 * std::min(high_.x - low_.x, high_.y - low_.y); }
     double section() const { return area(bottom_platen); }
     double axial_stress(std::span<const facet_load> loads) const { return stress(loads, 2); }
     double lateral_stress(std::span<const facet_load> loads) const {

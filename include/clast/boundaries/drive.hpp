@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <clast/core/errors.hpp>
@@ -18,12 +19,18 @@ struct drive {
                             ///< servo: target stress (Pa), compression positive, >= 0
     double max_speed = 0.0; ///< servo: largest facet speed (m/s), > 0
     double gain = 0.5;      ///< servo: share of the force error removed per step, in (0, 1)
+
+    template <class A> void archive(A& a) { a(how, value, max_speed, gain); }
 };
 
 /// Drives of the whole boundary.
 struct drives {
     drive platens;
     drive lateral;
+    /// Of the walls normal to y, where a boundary can drive them apart (box); else and without it they follow lateral.
+    std::optional<drive> lateral_y{};
+
+    template <class A> void archive(A& a) { a(platens, lateral, lateral_y); }
 };
 
 /// Throws input_error where a drive makes no sense. `name` says whose drive it is.

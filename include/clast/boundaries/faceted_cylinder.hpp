@@ -20,6 +20,7 @@
 #include <clast/boundaries/polygon.hpp>
 #include <clast/boundaries/push_out.hpp>
 #include <clast/boundaries/touch.hpp>
+#include <clast/boundaries/vessel_settings.hpp>
 #include <clast/control/gap_control.hpp>
 #include <clast/control/servo.hpp>
 #include <clast/control/servo_group.hpp>
@@ -72,6 +73,16 @@ template <moving_unit Unit> class faceted_cylinder {
   public:
     /// Throws input_error where a setting makes no sense.
     explicit faceted_cylinder(const cylinder_settings& settings);
+    /// The vessel of a test, of all that its settings say. Throws input_error, by the names of triaxial_setup, for less
+    /// than 6 tiles per ring, and for tiles narrower or (where rings move on their own) lower than the smallest pebble.
+    static faceted_cylinder made(const vessel_settings& s);
+    /// A wall of these settings, at rest and a cylinder again, where this one is now: its radius, bottom and top count,
+    /// those of the settings do not.
+    faceted_cylinder resized(const vessel_settings& s) const {
+        cylinder_settings c = cylinder_of(s);
+        c.radius = radius(), c.bottom = bottom(), c.top = top();
+        return faceted_cylinder(c);
+    }
 
     static constexpr moving_unit moves = Unit;
     const cylinder_settings& settings() const { return set_; }
@@ -127,6 +138,12 @@ template <moving_unit Unit> class faceted_cylinder {
         return false;
     }
 
+    /// Whether a sphere has room inside a wall that still is a cylinder, touching nothing.
+    bool holds(const vec3& x, double r) const {
+        const double free = radius() - r;
+        return x.x * x.x + x.y * x.y <= free * free && !platens_.near(x.z, r);
+    }
+
     // --- facets ----------------------------------------------------------------------------------------------------
     /// Normal stiffness of the piece (N/m), before the series rule with the pebble.
     double stiffness(int facet) const {
@@ -155,8 +172,9 @@ template <moving_unit Unit> class faceted_cylinder {
 
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap
-    /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense.
-    /// `couplings` name facets that share pebbles, so that their servos act together (control/servo_group.hpp).
+    /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense, lateral_y
+    /// included. `couplings` name facets that share pebbles, so that their servos act together
+    /// (control/servo_group.hpp).
     void control(std::span<const facet_load> loads, const drives& d, double dt,
                  std::span<const coupling> couplings = {});
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
@@ -172,8 +190,8 @@ template <moving_unit Unit> class faceted_cylinder {
     vec3 velocity_at(const boundaries::touch& t, const vec3& point) const {
         if (t.facet == bottom_platen) return {0.0, 0.0, platens_.velocity[0]};
         if (t.facet == top_platen) return {0.0, 0.0, -platens_.velocity[1]};
-        const std::size_t i = index((t.facet - first_lateral_facet) % around_);
-        const double v = velocity(t.facet), share = std::clamp((point.z - bottom()) / height(), 0.0, 1.0);
+        const std::size_t j = index(t.facet - first_lateral_facet), i = j % index(around_);
+        const double v = velocity_[j], share = std::clamp((point.z - bottom()) / height(), 0.0, 1.0);
         return {-v * dir_.cosine[i], -v * dir_.sine[i],
                 (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1]};
     }
@@ -223,6 +241,9 @@ template <moving_unit Unit> class faceted_cylinder {
     }
 
   private:
+    static cylinder_settings cylinder_of(const vessel_settings& s);
+    static std::string most_rings(const vessel_settings& s);
+    static std::string most_around(const vessel_settings& s);
     static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
     std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
     double tile_height() const { return height() / rings_; }
@@ -318,6 +339,51 @@ template <moving_unit Unit> class faceted_cylinder {
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
+
+template <moving_unit Unit> cylinder_settings faceted_cylinder<Unit>::cylinder_of(const vessel_settings& s) {
+    cylinder_settings c;
+    c.radius = s.radius;
+    c.bottom = s.bottom;
+    c.top = s.top;
+    c.rings = s.rings;
+    c.tiles_per_ring = s.tiles_per_ring;
+    c.platen_stiffness = s.platen_stiffness;
+    c.tile_stiffness = s.wall_stiffness;
+    c.smallest_radius = s.smallest_radius;
+    c.largest_gap = c.largest_step = s.largest_gap;
+    c.contact_stiffness_floor = s.contact_stiffness_floor;
+    return c;
+}
+
+/// Advice on the number of rings.
+template <moving_unit Unit> std::string faceted_cylinder<Unit>::most_rings(const vessel_settings& s) {
+    const double height = s.top - s.bottom, pebble = 2.0 * s.smallest_radius;
+    int most = static_cast<int>(height / pebble);
+    if (most > 0 && height / most < pebble) --most; // by rounding
+    return most > 0 ? fmt::format("Take {} rings at most.", most) : "Make the specimen higher.";
+}
+/// Advice on the number of tiles around the axis.
+template <moving_unit Unit> std::string faceted_cylinder<Unit>::most_around(const vessel_settings& s) {
+    int most = s.tiles_per_ring;
+    while (most >= 6 && regular_width(most, s.radius) < 2.0 * s.smallest_radius) --most;
+    return most >= 6 ? fmt::format("Take {} tiles per ring at most.", most) : "Make the specimen wider.";
+}
+
+template <moving_unit Unit> faceted_cylinder<Unit> faceted_cylinder<Unit>::made(const vessel_settings& s) {
+    const auto demand = [](bool good, const char* name, int value, const char* allowed, const std::string& way_out) {
+        if (!good) throw input_error(name, fmt::format("{}", value), allowed, way_out);
+    };
+    const double pebble = 2.0 * s.smallest_radius;
+    demand(s.tiles_per_ring >= 6, "tiles_per_ring", s.tiles_per_ring, ">= 6", "The paper uses 20.");
+    demand(regular_width(s.tiles_per_ring, s.radius) >= pebble, "tiles_per_ring", s.tiles_per_ring,
+           "tiles at least as wide as the smallest pebble", most_around(s));
+    if constexpr (Unit != moving_unit::wall) {
+        demand(s.rings >= 1, "rings", s.rings, ">= 1", "The paper uses 12, 24 and 36.");
+        demand((s.top - s.bottom) / s.rings >= pebble, "rings", s.rings,
+               "tiles at least as high as the smallest pebble", most_rings(s));
+    }
+    return faceted_cylinder(cylinder_of(s));
+}
 
 template <moving_unit Unit>
 faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : set_(settings) {
@@ -426,13 +492,16 @@ template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
                          "the load moves the boundary faster than grains can resist, or no grain is left to resist",
                          "load more slowly, lower the speed limit of the servo, or use more rings"});
     };
-    if (!(height() >= 2.0 * set_.smallest_radius)) stop("The platens met", "platens");
+    // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
+    // failed anyway.
+    const double least = 0.5 * set_.smallest_radius;
+    if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
     for (std::size_t j = 0; j < apothem_.size(); ++j)
-        if (!(apothem_[j] >= 2.0 * set_.smallest_radius && apothem_[j] <= set_.largest_radius))
+        if (!(apothem_[j] >= least && apothem_[j] <= set_.largest_radius))
             stop("The membrane is torn",
                  fmt::format("tile {} of ring {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m)",
-                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j],
-                             2.0 * set_.smallest_radius, set_.largest_radius));
+                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least,
+                             set_.largest_radius));
 }
 
 template <moving_unit Unit>
@@ -457,6 +526,9 @@ void faceted_cylinder<Unit>::control(std::span<const facet_load> loads, const dr
                                      std::span<const coupling> couplings) {
     check(d.platens, "drives.platens");
     check(d.lateral, "drives.lateral");
+    if (d.lateral_y)
+        throw input_error("drives.lateral_y", "a drive of its own", "none, at a wall around the axis",
+                          "Take boundaries::box for three driven axes.");
     using mode = drive::mode;
     // Both platens move alike, on the mean of their forces. Ledges of the wall may take up a
     // difference between them; servos of their own would then chase each other along the axis, with all rings, for

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <clast/core/vector.hpp>
 
@@ -13,10 +15,12 @@ namespace clast::criteria {
 /// asked.
 enum class needs : unsigned {
     nothing = 0,
-    largest_force = 1,   ///< grain_load::largest_force
-    largest_contact = 2, ///< contact_radius and contact_modulus of the contact behind largest_force
-    stress = 4,          ///< grain_load::stress
-    grain_id = 8         ///< grain_load::grain
+    largest_force = 1,    ///< grain_load::largest_force
+    largest_contact = 2,  ///< contact_radius and contact_at_wall of the contact behind largest_force
+    stress = 4,           ///< grain_load::stress
+    grain_id = 8,         ///< grain_load::grain
+    coordination = 16,    ///< grain_load::coordination
+    neighbour_forces = 32 ///< grain_load::neighbour_forces
 };
 
 constexpr needs operator|(needs a, needs b) {
@@ -26,6 +30,10 @@ constexpr needs operator|(needs a, needs b) {
 constexpr bool contains(needs given, needs asked) {
     return (static_cast<unsigned>(asked) & ~static_cast<unsigned>(given)) == 0U;
 }
+
+/// All that there is to be asked for.
+inline constexpr needs everything = needs::largest_force | needs::largest_contact | needs::stress | needs::grain_id |
+                                    needs::coordination | needs::neighbour_forces;
 
 /// What a criterion may know about one clump, filled by the engine. Members that it did not ask for are left at zero.
 struct grain_load {
@@ -37,21 +45,49 @@ struct grain_load {
     /// Mean stress (Pa, compression positive): -(1/V) sum f (x) l, f the force on the grain at the arm l from its mass
     /// centre, V the pebble volume. Symmetric only if the moments balance: criteria use the symmetric part.
     mat3 stress;
-    double contact_radius = 0.0;  ///< r' = r1 r2 / (r1 + r2) of the contact behind largest_force (m)
-    double contact_modulus = 0.0; ///< E', 1/E' = sum (1 - nu_i^2) / E_i, of that contact (Pa)
+    /// r' = r1 r2 / (r1 + r2) of the contact behind largest_force (m), the largest of that neighbour: of two pebbles;
+    /// at a wall the radius of the pebble.
+    double contact_radius = 0.0;
+    /// E', 1/E' = sum (1 - nu_i^2) / E_i, of that contact (Pa). 0: not known, which is what an engine says.
+    double contact_modulus = 0.0;
+    bool contact_at_wall = false; ///< whether that contact is one with a platen or the lateral wall
     double strength_factor = 1.0; ///< strength of this grain over that of its size (scatter), positive
     std::int64_t grain = -1;      ///< id of the grain
+    std::size_t coordination = 0; ///< number of bodies and facets that touch it
+    /// What each of these exerts on the grain (N), in the order of its contacts. Valid during the call of
+    /// `utilisation`.
+    std::span<const vec3> neighbour_forces;
 };
+
+namespace detail {
+// a member of the name that cannot be called like this would be passed over in silence
+template <class C> constexpr bool optional_members_fit() {
+    bool fit = true;
+    if constexpr (requires { &C::active_needs; }) fit = requires(const C c) {
+            { c.active_needs() } -> std::same_as<needs>;
+        };
+    if constexpr (requires { &C::strength_factor; }) fit = fit && requires(const C c) {
+            { c.strength_factor(std::int64_t{}) } -> std::convertible_to<double>;
+        };
+    return fit;
+}
+} // namespace detail
 
 /// A criterion that is evaluated: a small struct of plain values with
 /// - `static constexpr bool evaluated = true`,
 /// - `static constexpr criteria::needs needs`: all that it may ever read (a value may need less, see needs_of),
 /// - `double utilisation(const grain_load&) const` -> u in [0, inf), pure; the grain breaks at u = 1, and a replacement
 ///   policy acts at its `trigger`.
+/// and, if it likes,
+/// - `criteria::needs active_needs() const`: what this value reads, if that is less than its type may,
+/// - `double strength_factor(std::int64_t grain) const`: strength of a grain over that of its like, which its bonds
+///   take over.
+/// One that names such a member but gives it another form does not satisfy the concept.
 /// Convention: two opposite forces F on the reference grain (diameter d0) give u = F / (sigma0 d0^2), so all criteria
 /// agree on the crushing test that defines sigma0 and differ elsewhere.
 template <class C>
-concept evaluated_criterion = std::copyable<C> && requires(const C c, const grain_load load) {
+concept evaluated_criterion = std::copyable<C> &&(detail::optional_members_fit<C>()) &&
+                              requires(const C c, const grain_load load) {
     requires bool(C::evaluated);
     { C::needs } -> std::convertible_to<needs>;
     { c.utilisation(load) } -> std::same_as<double>;
@@ -70,6 +106,14 @@ template <evaluated_criterion C> constexpr needs needs_of(const C& c) {
         return c.active_needs();
     else
         return C::needs;
+}
+
+/// Strength of a grain over that of its like: the criterion's `strength_factor`, or 1.
+template <class C> constexpr double strength_factor_of(const C& c, std::int64_t grain) {
+    if constexpr (requires { c.strength_factor(grain); })
+        return c.strength_factor(grain);
+    else
+        return 1.0;
 }
 
 } // namespace clast::criteria

@@ -14,7 +14,8 @@ namespace clast::criteria {
 enum class hertz_rule {
     average, ///< r = d/2 and E of the grain: r_avg and E_avg of two equal grains as the paper writes them
     pair,    ///< r' = d/4 and E' = E / (2 (1 - nu^2)): two equal grains; a rigid wall gives the same r'/E'
-    contact  ///< r' and E' of the contact behind the largest force (pebbles, walls), from the engine
+    contact  ///< r' of the contact behind the largest force, from the engine; E' = E / (2 (1 - nu^2)), twice that at a
+             ///< wall, which is taken as rigid
 };
 
 /// u = F_max / F_lim with F_lim = [sigma_lim (d/d0)^(-3/m) pi (3 r / (4 E))^(2/3)]^3, paper Eq. 1: the force at which
@@ -75,6 +76,10 @@ struct hertz_contact {
   private:
     double equal_pair_modulus() const { return youngs_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio)); }
 
+    double modulus_of_contact(const grain_load& load) const {
+        if (load.contact_modulus > 0.0) return load.contact_modulus; // who fills the load knows better
+        return load.contact_at_wall ? 2.0 * equal_pair_modulus() : equal_pair_modulus();
+    }
     /// pi (3 r / (4 E))^(2/3)
     double force_root_per_pressure(const grain_load& load) const {
         const double radius = rule == hertz_rule::average ? 0.5 * load.diameter
@@ -82,7 +87,7 @@ struct hertz_contact {
                                                           : load.contact_radius;
         const double modulus = rule == hertz_rule::average ? youngs_modulus
                                : rule == hertz_rule::pair  ? equal_pair_modulus()
-                                                           : load.contact_modulus;
+                                                           : modulus_of_contact(load);
         const double root = std::cbrt(0.75 * radius / modulus);
         return std::numbers::pi * root * root;
     }

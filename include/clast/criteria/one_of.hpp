@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -34,6 +35,10 @@ template <evaluated_criterion... C> struct one_of {
     }
     criteria::needs active_needs() const {
         return std::visit([](const auto& m) { return needs_of(m); }, model);
+    }
+    /// That of the one picked: 1 if it has none.
+    double strength_factor(std::int64_t grain) const {
+        return std::visit([grain](const auto& m) { return strength_factor_of(m, grain); }, model);
     }
 };
 

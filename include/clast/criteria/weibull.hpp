@@ -29,9 +29,11 @@ template <evaluated_criterion C> struct weibull {
     std::uint64_t seed = 0; ///< another seed gives other grains the weak ones
 
     /// Strength of a grain over that of its size; also that of its bonds, once it is a cluster.
-    double strength_factor(std::int64_t grain) const { return weibull_factor(seed, grain, m); }
+    double strength_factor(std::int64_t grain) const {
+        return weibull_factor(seed, grain, m) * strength_factor_of(model, grain);
+    }
     double utilisation(grain_load load) const {
-        load.strength_factor *= strength_factor(load.grain);
+        load.strength_factor *= weibull_factor(seed, load.grain, m); // the model adds its own
         return model.utilisation(load);
     }
     constexpr criteria::needs active_needs() const { return needs_of(model) | criteria::needs::grain_id; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <clast/bodies/concepts.hpp>
@@ -19,6 +20,20 @@ template <class S> double kinetic_energy(const S& s) {
         return s.grains.is_swept(b) ? s.grains.kinetic_energy(b) : 0.0;
     });
     return s.broken.add_kinetic_energy(s.grains, swept);
+}
+/// Of all bodies in the field (J), at the instant of their velocities; 0 where there is none.
+template <class S> double potential_energy(const S& s) {
+    if constexpr (S::field_type::acts) {
+        double e = s.settings.run.sum(s.grains.body_count(), 0.0, [&](std::size_t b) {
+            return s.grains.is_swept(b) ? s.potential_energy(b) : 0.0;
+        });
+        if constexpr (S::breakable)
+            s.broken.each_ball(s.grains, [&](std::int32_t p, const body_motion& m) {
+                e += s.settings.field.potential({s.grains.ball_mass(s.at(p)), m.x, m.v, s.totals.time - s.broken.lag});
+            });
+        return e;
+    }
+    return 0.0;
 }
 /// Energy in contacts, facets and bonds (J).
 template <class S> double elastic_energy(const S& s) {

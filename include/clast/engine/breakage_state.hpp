@@ -18,12 +18,6 @@
 
 namespace clast {
 
-/// A grain that is to be replaced, and the bonds with which its cluster will be born.
-struct birth_certificate {
-    std::int32_t grain;
-    std::vector<bonds::state> born;
-};
-
 /// State that only breakable scenes have.
 struct breakage_state {
     std::vector<bonds::cluster_pool> pools;         ///< per shape
@@ -36,18 +30,15 @@ struct breakage_state {
         vec3 force, moment;
         double dissipated = 0.0;
     };
-    std::vector<mean_load> halo_load;      ///< per grain of the halo: mean over the sub-steps of this step
-    std::vector<std::size_t> halo_list;    ///< the grains of the halo in this step
-    std::vector<birth_certificate> marked; ///< empty between steps
-    std::vector<fracture_event> events;    ///< since they were last taken
-    double lag = 0.0;                      ///< s: how far the motion of balls trails t_n between steps (half a step)
-    double time = 0.0;                     ///< s: of the sub-step that runs
+    std::vector<mean_load> halo_load;   ///< per grain of the halo: mean over the sub-steps of this step
+    std::vector<std::size_t> halo_list; ///< the grains of the halo in this step
+    std::vector<fracture_event> events; ///< since they were last taken
+    double lag = 0.0;                   ///< s: how far the motion of balls trails t_n between steps (half a step)
+    double time = 0.0;                  ///< s: of the sub-step that runs
 
     /// For clumps that are complete; their table of motion gets room for a ball per pebble.
     template <class Settings> void begin(bodies::clumps& g, const Settings& s) {
-        for (const shape& one : g.shapes)
-            pools.emplace_back(bonds::lattice(one, s.replacement.bond, g.density), s.scheme.damping);
-        members.resize(g.shapes.size());
+        make_pools(g, s);
         bonded.assign(g.pebble_count(), 0);
         halo.assign(g.grain_count(), 0);
         fragment.resize(g.pebble_count());
@@ -55,6 +46,34 @@ struct breakage_state {
             fragment[p] = g.grains[static_cast<std::size_t>(g.mother[p])].first;
         g.motion.resize(g.grain_count() + g.pebble_count());
         g.losses.resize(g.motion.size());
+    }
+
+    /// Pools for the shapes that have none yet.
+    template <class Settings> void make_pools(const bodies::clumps& g, const Settings& s) {
+        for (std::size_t k = pools.size(); k < g.shapes.size(); ++k)
+            pools.emplace_back(bonds::lattice(g.shapes[k], s.replacement.bond, g.density), s.scheme.damping);
+        members.resize(g.shapes.size());
+    }
+    /// The balls of a grain are none any more, and its bonds are gone.
+    void balls_were_frozen(const bodies::clumps& g, const grain& one) {
+        const index_range own = g.pebbles_of(static_cast<std::size_t>(&one - g.grains.data()));
+        std::erase_if(balls, [&](std::int32_t p) {
+            return own.begin <= static_cast<std::size_t>(p) && static_cast<std::size_t>(p) < own.end;
+        });
+        for (std::size_t p = own.begin; p < own.end; ++p) bonded[p] = 0;
+        if (one.cluster >= 0)
+            pools[static_cast<std::size_t>(one.shape)].dissolve(static_cast<std::size_t>(one.cluster));
+    }
+    /// Grain number g has become `count` clumps, which stand in its place: those behind it have moved up.
+    void grain_was_split(const bodies::clumps& g, std::size_t number, std::size_t count) {
+        const auto up = static_cast<std::int32_t>(count) - 1, place = static_cast<std::int32_t>(number);
+        for (auto& pool : members)
+            for (std::int32_t& m : pool) m += m > place ? up : 0;
+        halo.insert(halo.begin() + static_cast<std::ptrdiff_t>(number), count - 1, 0);
+        for (std::size_t k = number; k < number + count; ++k) {
+            const index_range own = g.pebbles_of(k);
+            for (std::size_t p = own.begin; p < own.end; ++p) fragment[p] = g.grains[k].first;
+        }
     }
 
     std::vector<fracture_event> take_events() { return std::exchange(events, {}); }
@@ -138,8 +157,10 @@ struct breakage_state {
     /// Fragment and state of a pebble, for a picture.
     void describe(const bodies::clumps& g, std::size_t pebble, pebble_view& view) const {
         const grain& one = g.grains[static_cast<std::size_t>(g.mother[pebble])];
-        if (one.cluster < 0) return;
+        if (one.cluster == grain::is_whole) return;
         view.fragment = fragment[pebble];
+        view.state = pebble_state::fragment;
+        if (one.cluster == grain::is_loose) return;
         const auto& pool = pools[static_cast<std::size_t>(one.shape)];
         const bool whole =
             pool.intact_bonds(static_cast<std::size_t>(one.cluster)) == static_cast<std::int32_t>(pool.bonds());
@@ -171,6 +192,8 @@ struct breakage_state {
 /// The same where nothing breaks.
 struct unbroken {
     template <class G, class Settings> static void begin(G&, const Settings&) {}
+    template <class G, class Settings> static constexpr void make_pools(const G&, const Settings&) {}
+    template <class G> static constexpr void grain_was_split(const G&, std::size_t, std::size_t) {}
     static std::vector<fracture_event> take_events() { return {}; }
     static constexpr bool has_balls() { return false; }
     template <class G, class F> static constexpr void each_ball(const G&, F&&) {}

@@ -2,10 +2,11 @@
 // The order of one step. What each part of it does is in a room of its own beside this header; scene.hpp is what all of
 // them share.
 //
+//   constraints set what they prescribe                                                      outside.hpp
 //   light bodies (balls and bonded clusters) pass through the span around t_n in sub-steps    light_bodies.hpp
 //   walls touch heavy bodies, servo                                                          walls.hpp
 //   sweep: heavy contacts, sums, motion; criteria look at clumps before these move           sweep.hpp, grain_load.hpp
-//   walls and space move; critical clumps are replaced                                       surgery.hpp
+//   walls and space move; the replacement acts on clumps that it has marked                  replace.hpp, surgery.hpp
 //   margins: whether lists still hold                                                        neighbourhood.hpp
 #pragma once
 
@@ -21,18 +22,20 @@
 #include <clast/boundaries/none.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/engine/audit.hpp>
+#include <clast/engine/check_policies.hpp>
 #include <clast/engine/light_bodies.hpp>
 #include <clast/engine/neighbourhood.hpp>
+#include <clast/engine/outside.hpp>
+#include <clast/engine/replace.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/step_limit.hpp>
-#include <clast/engine/surgery.hpp>
 #include <clast/engine/sweep.hpp>
 #include <clast/engine/walls.hpp>
 
 namespace clast {
 
-/// Bodies, a boundary and the policies that move them. Construct complete; then call step().
-template <simulator_policies P> class engine : private scene<P> {
+/// Bodies, a boundary and the policies that move them (simulator_policies). Construct complete; then call step().
+template <class P> class engine : private scene<P> {
   public:
     using scene_type = scene<P>;
     using typename scene_type::body_type;
@@ -45,10 +48,13 @@ template <simulator_policies P> class engine : private scene<P> {
     using settings_type = engine_settings<P>;
     using scene_type::breakable;
     using scene_type::has_criterion;
+    static_assert(rooms::fills_all_needs<typename P::breakage>,
+                  "the breakage criterion `needs` something of a grain_load that an engine does not fill");
 
     // ---- what there is, and what may be changed between steps -------------------------------------------------------
     using scene_type::boundary; ///< to exchange it, set_boundary()
     using scene_type::breakage_on;
+    using scene_type::constraint;
     using scene_type::drives;
     using scene_type::grains;
     using scene_type::settings;
@@ -92,8 +98,8 @@ template <simulator_policies P> class engine : private scene<P> {
     void set_friction(double mu) {
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
-    /// To be called after velocities were set by hand, so that the audit knows of their energy.
-    void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy(); }
+    /// To be called after velocities or the field were set by hand, so that the audit knows of their energy.
+    void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy() + potential_energy(); }
     /// Broken bonds since the last call, in the order in which they broke.
     std::vector<fracture_event> take_events() { return this->broken.take_events(); }
     /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).
@@ -112,8 +118,11 @@ template <simulator_policies P> class engine : private scene<P> {
     using scene_type::branch_of;
     using scene_type::centre_of;
     using scene_type::each_contact;
+    using scene_type::each_outer_force;
     using scene_type::each_wall_row;
+    using scene_type::has_outer_forces;
     double kinetic_energy() const { return rooms::kinetic_energy(state()); }
+    double potential_energy() const { return rooms::potential_energy(state()); } ///< in the field (J)
     double elastic_energy() const { return rooms::elastic_energy(state()); }
     body_losses losses() const { return rooms::losses(state()); }
 
@@ -134,23 +143,18 @@ template <simulator_policies P> class engine : private scene<P> {
 
     void begin() {
         scene_type& s = own();
-        if constexpr (has_criterion) {
-            using criteria::needs;
-            if (!criteria::contains(needs::largest_force | needs::stress | needs::grain_id,
-                                    criteria::needs_of(settings.breakage)))
-                throw input_error("breakage criterion", "needs radius and modulus of the largest contact",
-                                  "criteria on the largest force or the mean stress of a grain",
-                                  "Take hertz_contact with the nominal radius (its default).");
-        }
         s.broken.begin(grains, settings);
         s.memory.resize(grains.body_count());
+        s.replacing.begin(grains.grain_count());
         s.smallest_mass = grains.smallest_mass();
         s.smallest_radius = smallest_radius();
         s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
         rooms::sort_pebbles(s);
-        s.totals.initial_energy = kinetic_energy();
+        count_initial_energy();
         rooms::make_lists(s);
+        const double then = potential_energy();
         estimate(true);
+        s.totals.initial_energy += potential_energy() - then; // it is that of half a step ago, and there is a step now
     }
     double smallest_radius() const {
         double least = std::numeric_limits<double>::infinity();
@@ -179,6 +183,7 @@ template <simulator_policies P> class engine : private scene<P> {
         if (criterion_looks) s.index_heavy();
         const margin_use use = rooms::sweep(s, stage, since, keep_rows || space_looks || criterion_looks,
                                             rooms::marks_critical(s, criterion_looks));
+        rooms::end_constraint(s);
         space.end_sweep(s, space_looks);
         rooms::advance_walls(s, span);
         rooms::bring_balls_to_step(s);
@@ -189,6 +194,7 @@ template <simulator_policies P> class engine : private scene<P> {
     void one_step(bool keep_rows, bool last_of_many) {
         scene_type& s = own();
         if (s.near.must_search || s.near.must_renew) rooms::renew_lists(s);
+        rooms::begin_constraint(s);
         if (s.estimate_due || s.totals.steps % step_interval == 0) estimate(false);
         margin_use use = margin_use::within;
         double since = scheme_type::stages.back().drift * s.dt;
@@ -202,6 +208,15 @@ template <simulator_policies P> class engine : private scene<P> {
         ++s.totals.steps;
         rooms::check_margins(s, use);
     }
+};
+
+/// For a bundle that does not fit (simulator_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!simulator_policies<P>) class engine<P> : public engine<repaired_policies<P>> {
+    static_assert(sizeof(check_policies<P>) > 0);
+
+  public:
+    template <class Body, class... Others> engine(engine_settings<P>, Body, Others...);
 };
 
 } // namespace clast

@@ -15,27 +15,43 @@
 
 namespace clast::rooms {
 
-/// f(pebble, neighbour, force, point) for every row of one list that acts on a clump; neighbour: body id, or -1 -
-/// facet.
+/// Whether load_of() fills all that a criterion may ask for.
+template <class C> inline constexpr bool fills_all_needs = true;
+template <criteria::evaluated_criterion C>
+inline constexpr bool fills_all_needs<C> = criteria::contains(criteria::everything, C::needs);
+
+/// What one row exerts on a clump.
+struct acting_force {
+    std::int32_t pebble;    ///< of the clump
+    std::int32_t neighbour; ///< body id, or -1 - facet
+    vec3 force;             ///< N
+    vec3 point;             ///< m
+    double radius;          ///< r1 r2 / (r1 + r2) of the two pebbles, at a facet that of the pebble (m)
+};
+
+/// f(acting_force) for every row of one list that acts on a clump.
 template <class S, class F>
 void each_row_of(const S& s, std::size_t g, const incidence& of, const contact_list<typename S::history>& list,
                  const std::vector<boundaries::wall_row>& wall, F&& f) {
     for (const incidence::entry& one : of.of(g)) {
+        const double r = s.radius(one.pebble);
         if (one.row() < list.size()) {
             const force_row& row = list.rows[one.row()];
             if (row.depth == 0.0) continue;
             const double side = one.side();
             const pebble_pair& pair = list.pairs[one.row()];
-            f(one.pebble, s.grains.owner[s.at(one.is_second() ? pair.i : pair.j)], side * row.force,
-              s.position(one.pebble) + (side * (s.radius(one.pebble) - 0.5 * row.depth)) * row.normal);
+            const std::int32_t other = one.is_second() ? pair.i : pair.j;
+            f(acting_force{one.pebble, s.grains.owner[s.at(other)], side * row.force,
+                           s.position(one.pebble) + (side * (r - 0.5 * row.depth)) * row.normal,
+                           r * s.radius(other) / (r + s.radius(other))});
         } else {
             const boundaries::wall_row& w = wall[one.row() - list.size()];
             const vec3 x = s.position(w.pebble);
-            const double r = s.radius(w.pebble);
             for (const boundaries::touch& t : w.touch)
-                f(w.pebble, -1 - t.facet, w.share(t) * t.normal, x - r * t.normal);
+                f(acting_force{w.pebble, -1 - t.facet, w.share(t) * t.normal, x - r * t.normal, r});
             if (norm2(w.friction) > 0.0)
-                f(w.pebble, -1 - w.touch.begin()->facet, w.friction, x - r * unit(w.force - w.friction));
+                f(acting_force{w.pebble, -1 - w.touch.begin()->facet, w.friction, x - r * unit(w.force - w.friction),
+                               r});
         }
     }
 }
@@ -45,29 +61,57 @@ template <class S, class F> void each_row_of(const S& s, std::size_t g, F&& f) {
     if (s.broken.has_balls()) each_row_of(s, g, s.light_of, s.light, s.light_wall, f);
 }
 
-/// What a criterion may ask of a clump: the largest resultant over its neighbours and its mean stress.
-template <class S> criteria::grain_load load_of(const S& s, std::size_t g) {
-    const shape& own = s.grains.shape_of(s.grains.grains[g]);
+/// What a clump feels of one neighbour.
+struct neighbour_load {
+    std::int32_t id = 0;  ///< body, or -1 - facet
+    vec3 force;           ///< resultant of its contacts (N)
+    double largest = 0.0; ///< square of the largest of them (N^2)
+    double radius = 0.0;  ///< of that (acting_force::radius)
+};
+/// All that touch a clump, in the order of its rows. f(acting_force) is called for each of these, too.
+template <class S, class F> std::vector<neighbour_load> neighbours_of(const S& s, std::size_t g, F&& f) {
+    std::vector<neighbour_load> around; // few, but a clump among fragments may have many
+    around.reserve(32);
+    each_row_of(s, g, [&](const acting_force& one) {
+        std::size_t k = 0;
+        while (k < around.size() && around[k].id != one.neighbour) ++k;
+        if (k == around.size()) around.push_back({one.neighbour, {}});
+        around[k].force += one.force;
+        if (norm2(one.force) > around[k].largest) around[k].largest = norm2(one.force), around[k].radius = one.radius;
+        f(one);
+    });
+    return around;
+}
+
+/// What its criterion may ask of a clump; what it does not ask for stays at zero. forces: room for those of the
+/// neighbours, to which the answer points.
+template <class S> criteria::grain_load load_of(const S& s, std::size_t g, std::vector<vec3>& forces) {
+    using criteria::needs;
+    const auto wants = [asked = criteria::needs_of(s.settings.breakage)](needs what) {
+        return criteria::contains(asked, what);
+    };
+    const grain& one = s.grains.grains[g];
+    const shape& own = s.grains.shape_of(one);
     criteria::grain_load load;
     load.diameter = own.diameter;
     load.volume = own.volume;
-    load.grain = static_cast<std::int64_t>(g);
-    const bool wants_stress = criteria::contains(criteria::needs_of(s.settings.breakage), criteria::needs::stress);
-    struct neighbour {
-        std::int32_t id;
-        vec3 force;
-    };
-    std::vector<neighbour> around; // few, but a clump among fragments may have many
-    around.reserve(32);
-    each_row_of(s, g, [&](std::int32_t, std::int32_t id, const vec3& f, const vec3& point) {
-        std::size_t k = 0;
-        while (k < around.size() && around[k].id != id) ++k;
-        if (k == around.size()) around.push_back({id, {}});
-        around[k].force += f;
+    load.grain = one.id;
+    const bool wants_stress = wants(needs::stress);
+    const auto around = neighbours_of(s, g, [&](const acting_force& f) {
         // force into the grain at the arm x - X: f (x) arm is negative in compression
-        if (wants_stress) load.stress += (-1.0 / own.volume) * outer(f, point - s.grains.motion[g].x);
+        if (wants_stress) load.stress += (-1.0 / own.volume) * outer(f.force, f.point - s.grains.motion[g].x);
     });
-    for (const neighbour& n : around) load.largest_force = std::max(load.largest_force, norm(n.force));
+    const neighbour_load* most = nullptr;
+    for (const neighbour_load& n : around)
+        if (const double size = norm(n.force); size > load.largest_force) load.largest_force = size, most = &n;
+    if (most != nullptr && wants(needs::largest_contact))
+        load.contact_radius = most->radius, load.contact_at_wall = most->id < 0;
+    if (wants(needs::coordination)) load.coordination = around.size();
+    forces.clear();
+    if (wants(needs::neighbour_forces)) {
+        for (const neighbour_load& n : around) forces.push_back(n.force);
+        load.neighbour_forces = forces;
+    }
     return load;
 }
 
@@ -75,10 +119,10 @@ template <class S> criteria::grain_load load_of(const S& s, std::size_t g) {
 template <class S> std::vector<bonds::pebble_load> pebble_loads(const S& s, std::size_t g) {
     const grain& one = s.grains.grains[g];
     std::vector<bonds::pebble_load> load(s.grains.shape_of(one).pebbles.size());
-    each_row_of(s, g, [&](std::int32_t pebble, std::int32_t, const vec3& f, const vec3& point) {
-        bonds::pebble_load& l = load[s.at(pebble - one.first)];
-        l.force += f;
-        l.moment += cross(point - s.position(pebble), f);
+    each_row_of(s, g, [&](const acting_force& f) {
+        bonds::pebble_load& l = load[s.at(f.pebble - one.first)];
+        l.force += f.force;
+        l.moment += cross(f.point - s.position(f.pebble), f.force);
     });
     return load;
 }

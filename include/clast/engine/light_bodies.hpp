@@ -95,11 +95,20 @@ template <class S> void place_balls(S& s, double later) {
         s.grains.pebbles[s.at(p)].x = m.x + later * m.v;
     });
 }
+/// What acts on a ball in the middle of a sub-step.
+template <class S> load_sum load_of_ball(const S& s, std::int32_t pebble) {
+    const std::size_t b = s.grains.ball(pebble);
+    load_sum sum = sum_light(s, b, s.position(pebble), 0.0);
+    if constexpr (S::field_type::acts)
+        sum.force += s.settings.field.force(
+            {s.grains.ball_mass(s.at(pebble)), s.position(pebble), s.grains.motion[b].v, s.broken.time});
+    return sum;
+}
 /// A ball without a bond, by one sub-step h (s).
 template <class S> void advance_ball(S& s, std::int32_t pebble, double h) {
     const std::size_t p = s.at(pebble), b = s.grains.ball(pebble);
     body_motion& m = s.grains.motion[b];
-    const load_sum sum = sum_light(s, b, s.position(pebble), 0.0);
+    const load_sum sum = load_of_ball(s, pebble);
     const auto& scheme = s.settings.scheme;
     const vec3 df = scheme.extra(sum.force, m.v), dm = scheme.extra(sum.moment, m.w);
     const vec3 v = m.v, w = m.w;
@@ -129,7 +138,7 @@ void advance_batch(S& s, std::size_t which, std::size_t batch, double h, std::ve
             const std::int32_t p = first[l] + static_cast<std::int32_t>(k);
             const std::size_t b = s.grains.ball(p);
             const body_motion& m = s.grains.motion[b];
-            const load_sum sum = sum_light(s, b, s.position(p), 0.0);
+            const load_sum sum = load_of_ball(s, p);
             balls[l * n + k] = {m.v, m.w, s.position(p)};
             load[l * n + k] = {sum.force, sum.moment};
             s.grains.losses[b].friction += sum.dissipated;
@@ -177,6 +186,7 @@ template <class S> void advance_light_bodies(S& s) {
         std::fill(s.light_loads.begin(), s.light_loads.end(), boundaries::facet_load{});
         for (int k = 0; k < s.light_steps; ++k) {
             const double ahead = (k + 0.5) * h - b.lag;
+            b.time = s.totals.time + ahead;
             place_balls(s, 0.5 * h);
             evaluate_light(s, h, ahead);
             s.couplings.clear(); // those of the last sub-step are kept
@@ -193,7 +203,6 @@ template <class S> void advance_light_bodies(S& s) {
             s.settings.run.for_each(b.balls.size(), [&](std::size_t i) {
                 if (b.bonded[s.at(b.balls[i])] == 0) advance_ball(s, b.balls[i], h);
             });
-            b.time = s.totals.time + ahead;
             for (std::size_t p = 0; p < b.pools.size(); ++p) advance_clusters(s, p, h);
         }
     }

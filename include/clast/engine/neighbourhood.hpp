@@ -297,6 +297,10 @@ template <class S> void choose_lists(S& s) {
         take(heavy, heavy.behind(), s.heavy, s.heavy.in_front());
         take(light, light.behind(), s.heavy, s.heavy.in_front());
         take(light, light.behind(), s.heavy, s.heavy.behind());
+        if constexpr (S::breakable) { // balls that were frozen
+            take(heavy, heavy.in_front(), s.light, s.light.behind());
+            take(heavy, heavy.behind(), s.light, s.light.behind());
+        }
     }
     s.heavy = std::move(heavy);
     s.light = std::move(light);
@@ -346,9 +350,11 @@ template <class S> void join_lists(S& s) {
 /// The lists as the threads of this run ask for, after they were saved or read.
 template <class S> void part_lists(S& s) {
     s.heavy_of.reset();
-    cut_ranges(s);
-    bring_shared_forward(s.heavy, between_ranges(s));
-    index_ranges(s);
+    if (!s.near.must_search) { // else pairs may name clumps that are none any more, and the next step cuts anew
+        cut_ranges(s);
+        bring_shared_forward(s.heavy, between_ranges(s));
+        index_ranges(s);
+    }
     // like rows, written anew by the next step
     s.light.rows.resize(s.light.size());
     s.loads.resize(static_cast<std::size_t>(s.boundary.facet_count()));

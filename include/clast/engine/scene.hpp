@@ -23,11 +23,14 @@
 #include <clast/engine/kernel.hpp>
 #include <clast/engine/list_widths.hpp>
 #include <clast/engine/policies.hpp>
+#include <clast/engine/replacement_state.hpp>
+#include <clast/fields/concepts.hpp>
+#include <clast/replacements/concepts.hpp>
 
 namespace clast {
 
 /// Parameters of an engine that are values, not types. SI units.
-template <simulator_policies P> struct engine_settings {
+template <class P> struct engine_settings {
     typename P::contact grain_contact;   ///< pebble against pebble
     typename P::contact platen_contact;  ///< pebble against platen
     typename P::contact lateral_contact; ///< pebble against the lateral wall
@@ -41,17 +44,18 @@ template <simulator_policies P> struct engine_settings {
     double expected_overlap = 1e-4;
     execution run = execution(1);
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
+    [[no_unique_address]] typename P::field field{}; ///< on every body; like damping not part of a checkpoint
 };
 
 /// Totals that an audit needs (J), and counters.
 struct engine_totals {
-    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall and moving images
+    double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall, moving images and constraints
     double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
-    double initial_energy = 0.0;   ///< brought in with initial velocities
+    double initial_energy = 0.0;   ///< brought in with initial velocities and places in a field
     std::int64_t steps = 0;
     std::int64_t rebuilds = 0; ///< searches for neighbours
     std::int64_t renewals = 0; ///< of the lists, from what a search has found
-    std::int64_t replaced = 0;
+    std::int64_t replaced = 0; ///< clumps that became balls or other clumps
     std::int64_t broken_tension = 0;
     std::int64_t broken_shear = 0;
     double time = 0.0;
@@ -95,8 +99,22 @@ template <class Body, class Space> struct neighbour_state {
 struct range_work {
     std::vector<moving_body> ready;      ///< bodies whose loads are complete, until a strip of them is moved
     margin_use use = margin_use::within; ///< of its bodies
-    std::vector<birth_certificate> marked;
 };
+/// The same where a replacement may want clumps.
+template <class R> struct marking_work : range_work {
+    std::vector<marked_grain<R>> marked; ///< of its clumps, ascending
+};
+
+namespace detail {
+template <class R> struct replacement_types {
+    using work = range_work;
+    using state = nothing_replaced;
+};
+template <replacements::replacing R> struct replacement_types<R> {
+    using work = marking_work<R>;
+    using state = replacement_state<R>;
+};
+} // namespace detail
 
 /// Heavy bodies are swept, each once in a step: clumps, or all spheres of a scene of spheres. Light bodies are balls,
 /// which pass through the step in sub-steps. A contact is light if one of its bodies is.
@@ -107,6 +125,8 @@ template <simulator_policies P> struct scene {
     using body_type = typename P::body;
     using boundary_type = typename P::boundary;
     using space_type = typename P::space;
+    using field_type = typename P::field;
+    using constraint_type = typename P::constraint;
     using wall_row = boundaries::wall_row;
     using wall_grip = boundaries::grip<history>;
     using scheme_type = typename P::scheme;
@@ -117,13 +137,16 @@ template <simulator_policies P> struct scene {
         static constexpr void resize(std::size_t) {}
         template <class A> void archive(A&) {}
     };
-    static constexpr bool breakable = P::replacement::makes_bonds;
+    using work = typename detail::replacement_types<typename P::replacement>::work;
+    static constexpr bool replaces = P::replacement::replaces;
+    static constexpr bool breakable = replacements::makes_bonds<typename P::replacement>(); ///< has balls and bonds
     static constexpr bool has_criterion = P::breakage::evaluated;
 
     engine_settings<P> settings;
     body_type grains;
     boundary_type boundary;
     [[no_unique_address]] space_type space;
+    [[no_unique_address]] constraint_type constraint{}; ///< what is prescribed of single bodies
     boundaries::drives drives;
     bool breakage_on = true; ///< off: criteria are not looked at (bonds of existing clusters still break)
 
@@ -137,6 +160,7 @@ template <simulator_policies P> struct scene {
     body_items unlisted; ///< the others
     neighbour_state<body_type, space_type> near;
     [[no_unique_address]] std::conditional_t<breakable, breakage_state, unbroken> broken;
+    [[no_unique_address]] typename detail::replacement_types<typename P::replacement>::state replacing;
 
     [[no_unique_address]] std::conditional_t<integrators::forgetful<scheme_type>, no_memory,
                                              std::vector<integrators::body_memory<scheme_type>>>
@@ -154,7 +178,7 @@ template <simulator_policies P> struct scene {
     std::vector<boundaries::facet_load> light_loads; ///< mean over the sub-steps of light bodies
     std::vector<boundaries::coupling> couplings;
     body_ranges ranges;                      ///< of bodies, one for each thread
-    std::vector<range_work> sweeping;        ///< per range
+    std::vector<work> sweeping;              ///< per range
     std::vector<contact_load<>> shared_load; ///< of the contacts between two ranges
     std::vector<load_sum> acting;            ///< per body; zero between steps
     [[no_unique_address]] typename space_type::crossings crossings;
@@ -235,6 +259,31 @@ template <simulator_policies P> struct scene {
         const std::size_t body = grains.body_of(pebble);
         return body < grains.body_count() ? grains.centre(body) : position(pebble);
     }
+    /// A body of the sweep as a field saw it `ago` seconds before.
+    fields::body_at seen(std::size_t body, double ago = 0.0) const {
+        const vec3& v = grains.velocity(body);
+        return {grains.body_mass(body), grains.centre(body) - ago * v, v, totals.time - ago};
+    }
+    /// Of a body of the sweep in the field (J). Velocities are those of the middle of the last step: so is this.
+    double potential_energy(std::size_t body) const {
+        if constexpr (field_type::acts) return settings.field.potential(seen(body, 0.5 * dt));
+        return 0.0;
+    }
+    static constexpr bool has_outer_forces = field_type::acts || constraint_type::acts;
+    /// f(piece, force) for what acts on bodies and fragments from outside (N): field, pushes and reactions of
+    /// constraints in the last step.
+    template <class F> void each_outer_force(F&& f) const {
+        for (std::size_t b = 0; has_outer_forces && b < grains.body_count(); ++b) {
+            if (!grains.is_swept(b)) continue;
+            if constexpr (field_type::acts) f(b, settings.field.force(seen(b)));
+            if constexpr (constraint_type::acts) f(b, constraint.outer_force(b));
+        }
+        if constexpr (field_type::acts && breakable)
+            broken.each_ball(grains, [&](std::int32_t p, const body_motion& m) {
+                f(broken.piece_of(grains, p),
+                  settings.field.force({grains.ball_mass(at(p)), m.x, m.v, totals.time - broken.lag}));
+            });
+    }
     /// From the centre of the first body of a contact to that of the second, through the contact (m): right across the
     /// faces of a periodic cell, too.
     vec3 branch_of(const force_row& row, const pebble_pair& pair) const {
@@ -248,11 +297,15 @@ template <simulator_policies P> struct scene {
     /// before it reads any; events must have been taken.
     template <class A> void archive(A& a) {
         a(grains, boundary, space, settings.grain_contact, breakage_on, totals, dt, light_steps, estimate_due);
-        a(drives.platens.how, drives.platens.value, drives.platens.max_speed, drives.platens.gain);
-        a(drives.lateral.how, drives.lateral.value, drives.lateral.max_speed, drives.lateral.gain);
-        a(near, heavy, heavy_wall, heavy_grip, light, light_wall, light_grip, light_of, asleep, listed, unlisted,
-          memory);
+        a(drives, near, heavy, heavy_wall, heavy_grip, light, light_wall, light_grip, light_of, asleep, listed,
+          unlisted, memory);
+        if constexpr (A::reading) { // of shapes that were made on the way
+            broken.make_pools(grains, settings);
+            smallest_mass = grains.smallest_mass();
+        }
         broken.archive(a);
+        replacing.archive(a);
+        constraint.archive(a);
     }
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <clast/bodies/contact_list.hpp>
@@ -97,15 +98,31 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
     }
 }
 
+/// Smallest mass (kg) of a body that forces can move; infinite if there is none.
+template <class S> double smallest_free_mass(const S& s) {
+    if constexpr (!S::constraint_type::acts)
+        return s.smallest_mass;
+    else
+        return -s.settings.run.max(s.grains.body_count(), -std::numeric_limits<double>::infinity(), [&](std::size_t b) {
+            return s.constraint.is_fixed(b) ? -std::numeric_limits<double>::infinity() : -s.grains.body_mass(b);
+        });
+}
+/// Whether a body cannot limit the time step, because forces do not move it.
+template <class S> bool is_fixed([[maybe_unused]] const S& s, [[maybe_unused]] std::size_t body) {
+    if constexpr (S::constraint_type::acts) return s.constraint.is_fixed(body);
+    return false;
+}
+
 /// dt of a scene, after some steps or from the beginning (first). Light bodies do not shrink it: they set the number of
 /// sub-steps (light_bodies.hpp).
 template <class S> void estimate_step(S& s, bool first) {
     // from the present positions, not from what an earlier step left behind: a restart must see the same
     touch_walls(s, s.heavy_wall), touch_walls(s, s.light_wall);
-    const double limit = std::min(typical_limit(s, s.smallest_mass, typical_stiffness(s)), s.settings.largest_step);
+    const double limit =
+        std::min(typical_limit(s, smallest_free_mass(s), typical_stiffness(s)), s.settings.largest_step);
     s.index_heavy();
     const auto faster = [&](std::size_t b, double so_far) {
-        if (!s.grains.is_swept(b) || surely_allows(s, b, -so_far)) return so_far;
+        if (!s.grains.is_swept(b) || is_fixed(s, b) || surely_allows(s, b, -so_far)) return so_far;
         stiffness_sum k(s.grains.body_axes(b));
         add_stiffness(s, k, *s.heavy_of, b, s.heavy, s.heavy_wall, s.grains.centre(b));
         if (s.broken.has_balls()) add_stiffness(s, k, s.light_of, b, s.light, s.light_wall, s.grains.centre(b));

@@ -1,100 +1,293 @@
 // SPDX-License-Identifier: MIT
-// The only room that changes owners: clumps become clusters of balls, and bonds of clusters fail. Nothing is made or
-// lost here: pebbles get other owners, and pairs go from one list to another with what they remember.
+// The only room that changes owners: clumps become balls, clusters of balls or smaller clumps, and bonds of clusters
+// fail. Nothing is made or lost here: pebbles get other owners, and pairs go from one list to another with what they
+// remember.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
+#include <clast/bodies/contact_list.hpp>
 #include <clast/bonds/cluster_pool.hpp>
 #include <clast/bonds/parallel.hpp>
+#include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
-#include <clast/engine/grain_load.hpp>
+#include <clast/criteria/concepts.hpp>
+#include <clast/engine/neighbourhood.hpp>
 #include <clast/engine/scene.hpp>
+#include <clast/grains/shape.hpp>
 #include <clast/integrators/rotation.hpp>
 #include <clast/measure/sample.hpp>
+#include <clast/replacements/concepts.hpp>
 
 namespace clast::rooms {
 
-// ---- which clumps are to be replaced --------------------------------------------------------------------------------
+// ---- what a replacement may do
+// ---------------------------------------------------------------------------------------
 
-/// The criterion of a clump under the forces just evaluated.
-template <class S> bool is_critical(const S& s, std::size_t g) {
-    return !s.grains.shape_of(s.grains.grains[g]).bonds.empty() &&
-           s.settings.breakage.utilisation(load_of(s, g)) >= s.settings.replacement.trigger;
-}
-/// The bonds with which a critical clump will be born as a cluster: solved for its present load.
-template <class S> birth_certificate certificate(const S& s, std::size_t g) {
-    const bonds::cluster_pool& pool = s.broken.pools[s.at(s.grains.grains[g].shape)];
-    return {static_cast<std::int32_t>(g),
-            s.settings.replacement.born(pool.shape(), pebble_loads(s, g), s.grains.turning[g].q, s.grains.motion[g].w)};
-}
-/// Whether clumps are looked at in this step.
-template <class S> bool looks_at_clumps(const S& s) {
-    if constexpr (S::breakable && S::has_criterion)
-        return s.breakage_on && s.totals.steps % s.settings.replacement.check_interval == 0;
-    return false;
-}
-/// What a sweep does with a body whose load is complete, in a step that looks at clumps or not.
-template <class S> auto marks_critical([[maybe_unused]] const S& s, [[maybe_unused]] bool looks) {
-    if constexpr (S::breakable && S::has_criterion)
-        return [&s, looks](std::size_t body, range_work& work) {
-            if (looks && is_critical(s, body)) work.marked.push_back(certificate(s, body));
-        };
-    else
-        return [](std::size_t, range_work&) {};
-}
+/// What a replacement policy is given to act with, at the end of a step. Grains are named by their places in the table;
+/// a place holds while a policy acts on one grain, unless that is split. Everything here keeps mass, momentum and
+/// angular momentum to rounding, and contacts with their histories.
+template <class S> class surgery {
+  public:
+    using policy = typename S::policies::replacement;
+    using state_type = typename decltype(S::replacing)::grain_state;
+    static constexpr bool may_be_asked_again =
+        requires(const policy r, replacements::surgery_archetype<state_type>& room) {
+        r.again(std::int32_t{}, room);
+    };
 
-// ---- clumps become clusters -----------------------------------------------------------------------------------------
+    explicit surgery(S& s) : s_(s) {}
 
-/// A clump's pebbles become balls of their own in the same place with the same motion, joined by the bonds it was
-/// given.
-template <class S> void release(S& s, const birth_certificate& m) {
-    auto& b = s.broken;
-    const auto g = s.at(m.grain);
-    grain& one = s.grains.grains[g];
-    s.grains.place(g, s.unlisted.of(g));
-    const vec3 spin = spin_of(s.grains.turning[g].q, s.grains.turning[g].l, s.grains.inverse_inertia(one));
-    bonds::cluster_pool& pool = b.pools[s.at(one.shape)];
-    for (std::size_t k = 0; k < pool.shape().size(); ++k) {
-        const auto p = one.first + static_cast<std::int32_t>(k);
-        const std::size_t ball = s.grains.ball(p);
-        const vec3 x = s.position(p);
-        const vec3 v = s.grains.motion[g].v + cross(spin, x - s.grains.motion[g].x);
-        s.grains.motion[ball] = {x - b.lag * v, v, spin,
-                                 1.0 / s.grains.ball_mass(s.at(p))}; // the motion of a ball trails t_n by the lag
-        s.grains.owner[s.at(p)] = static_cast<std::int32_t>(ball);
-        b.bonded[s.at(p)] = 1;
+    const clast::shape& shape_of(std::int32_t grain) const { return s_.grains.shape_of(one(grain)); }
+    /// Strength of a grain over that of its like, by the criterion; 1 if it knows of none.
+    double strength_factor(std::int32_t grain) const {
+        return criteria::strength_factor_of(s_.settings.breakage, one(grain).id);
+    }
+    /// What the policy remembers of a grain.
+    state_type& state(std::int32_t grain) requires(decltype(S::replacing)::remembers) {
+        return s_.replacing.of_grain[s_.at(grain)];
+    }
+
+    /// A clump's pebbles become balls of their own in the same place with the same motion; kinetic energy is kept, too.
+    /// Counted in engine_totals::replaced. Throws input_error if it is no clump.
+    void release(std::int32_t grain);
+    /// Joins the balls of a grain that was released by the bonds of its shape, with these states (world axes, one per
+    /// bond) and their strength over that of the material. What energy the bonds hold is booked as negative
+    /// bond_dissipation: no one paid for it. Throws input_error if there are not as many states as bonds.
+    void bond(std::int32_t grain, const std::vector<bonds::state>& born, double strength);
+    /// A clump becomes several rigid ones without bonds, in the same place and with the same motion; kinetic energy is
+    /// kept, too. The parts are runs of its pebbles that share them out without rest, in their order. They take the
+    /// places grain, grain + 1, ...: the grains behind move up; the first keeps the number for life (and so its
+    /// strength), and all start with what was remembered of the whole. Equal runs of one shape share one new shape.
+    /// Pebbles of two parts that overlap are in contact from now on, without a history; their elastic energy (none for
+    /// tangent pebbles; shapes allow overlaps of 1e-9 d) is booked as negative bond_dissipation. Counted in
+    /// engine_totals::replaced. Throws input_error if the parts are not such.
+    void split(std::int32_t grain, std::span<const replacements::pebble_run> parts);
+    /// The balls of a grain become rigid clumps where they are: parts as for split(), places and numbers, too. Momentum
+    /// and angular momentum are kept to rounding, and contacts with other grains and between parts; bonds are gone. The
+    /// kinetic energy that this takes, and what bonds and contacts within a part held, are booked as bond_dissipation,
+    /// less what contacts between parts hold that a bond has carried until now. Parts get shapes of their own, with the
+    /// bonds that were intact. Throws input_error if the grain is a clump, or the parts are not such.
+    void freeze(std::int32_t grain, std::span<const replacements::pebble_run> parts);
+    /// The policy's again(grain, surgery) is called at the end of the step that comes `steps` (>= 1) after this one.
+    /// If the grain is split meanwhile, about the first part. Throws input_error for less than one step.
+    void again_in(std::int32_t grain, std::int64_t steps) {
+        static_assert(may_be_asked_again, "again_in() needs a member again(grain, surgery) of the replacement");
+        if (steps < 1) throw input_error("again_in", fmt::format("{} steps", steps), "at least 1", "Act at once.");
+        s_.replacing.ask_again(s_.totals.steps + steps, grain);
+    }
+
+    /// Makes lists follow what was done. For the engine, when all have acted.
+    void finish();
+
+  private:
+    const clast::grain& one(std::int32_t grain) const { return s_.grains.grains[s_.at(grain)]; }
+    std::int32_t add_shape(clast::shape made);
+    std::int32_t shape_of_part(std::int32_t whole, const replacements::pebble_run& part);
+    std::int32_t shape_of_frozen(std::int32_t grain, const replacements::pebble_run& part);
+    void check(std::int32_t grain, std::span<const replacements::pebble_run> parts, bool is_clump) const;
+    void divide(std::int32_t grain, std::size_t parts);
+    /// Elastic energy (J) of contacts between parts of a grain.
+    double energy_between(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
+    /// Elastic energy (J) of bonds of a grain and of contacts within its parts, less that of contacts between parts
+    /// that a bond carries.
+    double energy_within(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
+
+    S& s_;
+    bool cut_ = false, owners_changed_ = false;
+};
+
+template <class S> void surgery<S>::release(std::int32_t number) {
+    static_assert(S::breakable, "release() needs balls, which a scene has if the replacement says makes_bonds = true");
+    auto& b = s_.broken;
+    const auto g = s_.at(number);
+    clast::grain& one = s_.grains.grains[g];
+    if (!s_.grains.is_clump(g))
+        throw input_error("release", fmt::format("grain {}", number), "a clump", "It has been released already.");
+    s_.grains.place(g, s_.unlisted.of(g));
+    const vec3 spin = spin_of(s_.grains.turning[g].q, s_.grains.turning[g].l, s_.grains.inverse_inertia(one));
+    const index_range own = s_.grains.pebbles_of(g);
+    for (auto p = static_cast<std::int32_t>(own.begin); p < static_cast<std::int32_t>(own.end); ++p) {
+        const std::size_t ball = s_.grains.ball(p);
+        const vec3 x = s_.position(p);
+        const vec3 v = s_.grains.motion[g].v + cross(spin, x - s_.grains.motion[g].x);
+        // the motion of a ball trails t_n by the lag
+        s_.grains.motion[ball] = {x - b.lag * v, v, spin, 1.0 / s_.grains.ball_mass(s_.at(p))};
+        s_.grains.owner[s_.at(p)] = static_cast<std::int32_t>(ball);
+        b.fragment[s_.at(p)] = p;
         b.balls.push_back(p);
     }
-    double strength = 1.0;
-    if constexpr (requires { s.settings.breakage.strength_factor(std::int64_t{}); })
-        strength = s.settings.breakage.strength_factor(m.grain);
-    one.cluster = static_cast<std::int32_t>(pool.add(m.born, strength));
-    b.members[s.at(one.shape)].push_back(m.grain);
-    s.totals.bond_dissipation -= pool.energy(s.at(one.cluster)); // born with energy that no one paid for
-    ++s.totals.replaced;
+    one.cluster = clast::grain::is_loose;
+    ++s_.totals.replaced;
+    owners_changed_ = true;
 }
-/// Gives the pebbles of critical clumps new owners. At the end of a step, so that the next evaluation of forces already
-/// sees balls and bonds: no ball is integrated without its bonds.
-template <class S> void replace_marked(S& s) {
-    if constexpr (S::breakable) {
-        std::vector<birth_certificate>& marked = s.broken.marked;
-        for (range_work& r : s.sweeping) {
-            std::move(r.marked.begin(), r.marked.end(), std::back_inserter(marked));
-            r.marked.clear();
-        }
-        if (marked.empty()) return;
-        for (const birth_certificate& m : marked) release(s, m);
-        std::sort(s.broken.balls.begin(), s.broken.balls.end());
-        marked.clear();
-        s.near.must_search = s.estimate_due = true;
+
+template <class S> void surgery<S>::bond(std::int32_t number, const std::vector<bonds::state>& born, double strength) {
+    static_assert(S::breakable, "bond() needs a replacement that says makes_bonds = true");
+    auto& b = s_.broken;
+    clast::grain& one = s_.grains.grains[s_.at(number)];
+    bonds::cluster_pool& pool = b.pools[s_.at(one.shape)];
+    if (one.cluster != clast::grain::is_loose || born.size() != pool.bonds() || born.empty())
+        throw input_error("bond", fmt::format("{} states for grain {}", born.size(), number),
+                          fmt::format("{} states (more than 0) for a grain that was released", pool.bonds()),
+                          "Release it first; a grain whose shape has no bonds stays loose.");
+    for (std::size_t k = 0; k < pool.shape().size(); ++k) {
+        const std::size_t p = s_.at(one.first) + k;
+        b.bonded[p] = 1;
+        b.fragment[p] = one.first; // a shape with bonds is one piece
     }
+    one.cluster = static_cast<std::int32_t>(pool.add(born, strength));
+    b.members[s_.at(one.shape)].push_back(number);
+    s_.totals.bond_dissipation -= pool.energy(s_.at(one.cluster)); // born with energy that no one paid for
+}
+
+template <class S>
+void surgery<S>::check(std::int32_t number, std::span<const replacements::pebble_run> parts, bool is_clump) const {
+    std::int32_t next = 0;
+    bool fine = s_.grains.is_clump(s_.at(number)) == is_clump && !parts.empty();
+    for (const replacements::pebble_run& p : parts) fine = fine && p.first == next && p.count > 0, next += p.count;
+    const auto pebbles = static_cast<std::int32_t>(shape_of(number).pebbles.size());
+    if (!fine || next != pebbles)
+        throw input_error(is_clump ? "split" : "freeze", fmt::format("{} parts of grain {}", parts.size(), number),
+                          fmt::format("a {}, and runs that share out its {} pebbles in their order",
+                                      is_clump ? "clump" : "grain that was released", pebbles),
+                          "The first run starts at 0, each other one where the one before it ends.");
+}
+
+template <class S>
+double surgery<S>::energy_between(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
+    const std::int32_t first = one(number).first;
+    double e = 0.0;
+    for (const replacements::pebble_run& part : parts)
+        for (std::int32_t i = first; i < first + part.first; ++i)
+            for (std::int32_t j = first + part.first; j < first + part.first + part.count; ++j) {
+                const double depth = s_.radius(i) + s_.radius(j) - norm(s_.position(j) - s_.position(i));
+                if (depth > 0.0) e += s_.settings.grain_contact.stored(s_.overlap_of({i, j}, depth), {});
+            }
+    return e;
+}
+
+template <class S>
+double surgery<S>::energy_within(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
+    const clast::grain& g = one(number);
+    const auto part_at = [&](std::int32_t pebble) { // -1: of another grain
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            if (const std::int32_t p = pebble - g.first - parts[k].first; 0 <= p && p < parts[k].count)
+                return static_cast<int>(k);
+        return -1;
+    };
+    const auto stored = [&](const pebble_pair& p, const typename S::history& h) {
+        const double ri = s_.radius(p.i), rj = s_.radius(p.j);
+        const double depth = ri + rj - norm(s_.position(p.j) - s_.position(p.i));
+        return s_.settings.grain_contact.stored({0, 0, 1, depth, ri, rj}, h);
+    };
+    double e = g.cluster >= 0 ? s_.broken.pools[s_.at(g.shape)].energy(s_.at(g.cluster)) : 0.0;
+    for (std::size_t k = 0; k < s_.light.size(); ++k) {
+        const pebble_pair& p = s_.light.pairs[k];
+        if (const int a = part_at(p.i); a < 0 || a != part_at(p.j)) continue;
+        if constexpr (decltype(S::light)::remembers)
+            e += stored(p, s_.light.history[k]);
+        else
+            e += stored(p, {});
+    }
+    for (const pebble_pair& p : s_.asleep)
+        if (const int a = part_at(p.i); a >= 0 && a != part_at(p.j)) e -= stored(p, {});
+    return e;
+}
+
+template <class S> std::int32_t surgery<S>::add_shape(clast::shape made) {
+    s_.grains.shapes.push_back(std::move(made));
+    s_.broken.make_pools(s_.grains, s_.settings);
+    s_.smallest_mass = s_.grains.smallest_mass();
+    return static_cast<std::int32_t>(s_.grains.shapes.size()) - 1;
+}
+
+template <class S> std::int32_t surgery<S>::shape_of_part(std::int32_t whole, const replacements::pebble_run& part) {
+    if (part.count == static_cast<std::int32_t>(s_.grains.shapes[s_.at(whole)].pebbles.size())) return whole;
+    for (const auto& k : s_.replacing.parts)
+        if (k.whole == whole && k.first == part.first && k.count == part.count) return k.part;
+    const std::int32_t made = add_shape(part_of(s_.grains.shapes[s_.at(whole)], s_.at(part.first), s_.at(part.count)));
+    s_.replacing.parts.push_back({whole, part.first, part.count, made});
+    return made;
+}
+
+template <class S> std::int32_t surgery<S>::shape_of_frozen(std::int32_t number, const replacements::pebble_run& part) {
+    const clast::grain& g = one(number);
+    const clast::shape& whole = shape_of(number);
+    std::vector<shape_pebble> pebbles;
+    const vec3 origin = s_.position(g.first + part.first);
+    for (std::int32_t p = g.first + part.first; p < g.first + part.first + part.count; ++p)
+        pebbles.push_back({s_.position(p) - origin, s_.radius(p)});
+    std::vector<shape_bond> bonds;
+    for (std::size_t e = 0; g.cluster >= 0 && e < whole.bonds.size(); ++e) {
+        const shape_bond b{whole.bonds[e].a - part.first, whole.bonds[e].b - part.first};
+        if (0 <= b.a && b.b < part.count && s_.broken.pools[s_.at(g.shape)].is_intact(s_.at(g.cluster), e))
+            bonds.push_back(b);
+    }
+    return add_shape(rigid_shape(whole.name + " frozen", std::move(pebbles), std::move(bonds)));
+}
+
+template <class S> void surgery<S>::divide(std::int32_t number, std::size_t parts) {
+    const auto g = s_.at(number);
+    if constexpr (S::constraint_type::acts) // it names bodies by their places, which move up
+        if (parts > 1)
+            throw run_error({"a grain was divided in a scene with constraints", fmt::format("grain {}", one(number).id),
+                             fmt::format("step {}", s_.totals.steps), "constraints name bodies by numbers that change",
+                             "take constraints::none, or a replacement that does not divide grains"});
+    s_.broken.grain_was_split(s_.grains, g, parts);
+    s_.replacing.grain_was_split(g, parts);
+    if constexpr (!integrators::forgetful<typename S::scheme_type>) {
+        const auto own = s_.memory[g];
+        s_.memory.insert(s_.memory.begin() + static_cast<std::ptrdiff_t>(g) + 1, parts - 1, own);
+    }
+    s_.near.margins.insert(s_.near.margins.begin() + static_cast<std::ptrdiff_t>(g) + 1, parts - 1, 0.0);
+    sort_pebbles(s_);
+    owners_changed_ = cut_ = true;
+}
+
+template <class S> void surgery<S>::split(std::int32_t number, std::span<const replacements::pebble_run> parts) {
+    check(number, parts, true);
+    if (parts.size() == 1) return;
+    const auto g = s_.at(number);
+    s_.grains.place(g, s_.unlisted.of(g));
+    s_.totals.bond_dissipation -= energy_between(number, parts);
+    std::vector<clump_part> made;
+    for (const replacements::pebble_run& p : parts) made.push_back({p.first, shape_of_part(one(number).shape, p)});
+    s_.grains.split(g, made);
+    ++s_.totals.replaced;
+    divide(number, parts.size());
+}
+
+template <class S> void surgery<S>::freeze(std::int32_t number, std::span<const replacements::pebble_run> parts) {
+    static_assert(S::breakable, "freeze() needs balls, which a scene has if the replacement says makes_bonds = true");
+    check(number, parts, false);
+    s_.totals.bond_dissipation += energy_within(number, parts);
+    std::vector<clump_part> made;
+    for (const replacements::pebble_run& p : parts) made.push_back({p.first, shape_of_frozen(number, p)});
+    s_.broken.balls_were_frozen(s_.grains, one(number));
+    s_.totals.bond_dissipation += s_.grains.freeze(s_.at(number), made);
+    erase_contacts(s_.light, [&](const pebble_pair& p) { return s_.grains.body_of(p.i) == s_.grains.body_of(p.j); });
+    divide(number, parts.size());
+}
+
+template <class S> void surgery<S>::finish() {
+    if (!owners_changed_) return;
+    if constexpr (S::breakable) std::sort(s_.broken.balls.begin(), s_.broken.balls.end());
+    s_.near.must_search = s_.estimate_due = true;
+    if (!cut_) return;
+    // pairs are sorted by grains, of which there are others now; what the last search has found is not asked any more
+    sort_by(s_.heavy, s_.pair_order());
+    sort_by(s_.light, s_.pair_order());
+    s_.near.wide.heavy = s_.near.wide.light = {};
+    s_.heavy_of.reset();
 }
 
 // ---- bonds fail -----------------------------------------------------------------------------------------------------
@@ -131,7 +324,7 @@ template <class S> void part(S& s, std::size_t which, const bonds::break_report&
     e.mode = r.mode;
     e.normal = unit(s.position(pair.j) - s.position(pair.i));
     e.position = s.position(pair.i) + s.radius(pair.i) * e.normal;
-    e.mother = g;
+    e.mother = s.grains.grains[s.at(g)].id;
     e.bond = r.bond;
     e.normal_force = r.before.n;
     e.shear_force = norm(r.before.v);

@@ -63,16 +63,20 @@ template <class S>
         s.shared_load[shared].add_to_i(sum);
     load_sum load = sum;
     sum = {};
+    const std::size_t first = wall;
     for (; wall < s.heavy_wall.size() && s.grains.body_of(s.heavy_wall[wall].pebble) == body; ++wall) {
         const boundaries::wall_row& w = s.heavy_wall[wall];
         load.force += w.force;
         if constexpr (S::body_type::turns) load.moment += cross(s.position(w.pebble) - s.grains.centre(body), w.force);
-        if (!s.heavy_grip.empty()) {
-            load.moment += s.heavy_grip[wall].moment;
-            load.dissipated += s.heavy_grip[wall].dissipated;
-        }
     }
+    if (!s.heavy_grip.empty())
+        for (std::size_t k = first; k < wall; ++k) {
+            load.moment += s.heavy_grip[k].moment;
+            load.dissipated += s.heavy_grip[k].dissipated;
+        }
     s.broken.add_halo_load(body, load);
+    if constexpr (S::field_type::acts) load.force += s.settings.field.force(s.seen(body)); // before it is damped
+    if constexpr (S::constraint_type::acts) s.constraint.act(body, load);
     return load;
 }
 /// What a pass over all bodies goes by.
@@ -98,7 +102,7 @@ template <class S> void move_ready(S& s, range_work& work, const sweep_pass<S>& 
     work.ready.clear();
 }
 template <class S, class Look>
-void sweep_range(S& s, const body_range& r, range_work& work, const sweep_pass<S>& pass, Look&& look) {
+void sweep_range(S& s, const body_range& r, typename S::work& work, const sweep_pass<S>& pass, Look&& look) {
     for (std::uint32_t k : r.incoming) s.shared_load[k].add_to_j(s.acting[s.grains.body_of(s.heavy.pairs[k].j)]);
     std::size_t row = r.rows.begin, body = r.bodies.begin, shared = r.first_shared, wall = r.first_wall;
     std::size_t across = s.crossings.from(row);
@@ -119,7 +123,7 @@ void sweep_range(S& s, const body_range& r, range_work& work, const sweep_pass<S
 }
 
 /// Evaluates all heavy contacts and moves all heavy bodies, in one stage of the scheme. since: span since contacts were
-/// evaluated last (s). keep: rows of contacts are kept. look(body, range_work): is called for every body when its loads
+/// evaluated last (s). keep: rows of contacts are kept. look(body, work): is called for every body when its loads
 /// are complete and before it moves, by the thread that sweeps it.
 template <class S, class Look>
 margin_use sweep(S& s, const integrators::stage& stage, double since, bool keep, Look&& look) {

@@ -49,7 +49,7 @@ template <class S> void evaluate_wall(const S& s, boundaries::wall_row& w, doubl
     for (const boundaries::touch& t : touching)
         if (t.at_platen()) {
             const double f = push(s.settings.platen_contact, t.depth, closing(t));
-            w.platen[s.at(t.facet)] = f;
+            w.platen[t.platen()] = f;
             w.force += f * t.normal;
         }
     w.touch = touching; // last: to copy at once what has just been written in pieces takes a fifth of all this

@@ -159,34 +159,17 @@ inline void check_diameter(double diameter) {
                           "Give the diameter of the circumscribed sphere, e.g. 0.02 (20 mm).");
 }
 
-} // namespace detail
-
-/// Shape from pebbles in any frame (m): moves the origin to the mass centre, turns to principal axes (ascending
-/// moments; a body of revolution has its axis first; an isotropic one keeps the given axes), finds the bonds (|gap| <
-/// 1e-3 of the smallest radius) and the exact mass properties. Throws input_error if a radius is not positive, a number
-/// is not finite, or two pebbles overlap by more than 1e-9 d. Pieces without a common bond are accepted: see `pieces`.
-inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
-    const std::string option = fmt::format("shape '{}'", name);
-    if (pebbles.empty())
-        throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
-    shape s;
-    s.name = std::move(name);
+/// Moves the origin of pebbles to their mass centre and turns them to principal axes, with the exact mass properties.
+inline void complete(shape& s, std::vector<shape_pebble> pebbles) {
     vec3 moment;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < pebbles.size(); ++i) {
-        const shape_pebble& p = pebbles[i];
-        if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
-            throw input_error(option,
-                              fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
-                              "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
+    for (const shape_pebble& p : pebbles) {
         s.volume += sphere_volume(p.radius);
         moment += sphere_volume(p.radius) * p.offset;
-        smallest = std::min(smallest, p.radius);
     }
     s.mass_centre = moment / s.volume;
     for (shape_pebble& p : pebbles) p.offset -= s.mass_centre;
 
-    const detail::principal_frame frame = detail::principal_axes(inertia_tensor_per_density(pebbles));
+    const principal_frame frame = principal_axes(inertia_tensor_per_density(pebbles));
     s.to_input_frame = frame.to_input;
     for (shape_pebble& p : pebbles) {
         if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
@@ -199,11 +182,36 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
     vec3& inertia = s.inertia_per_density;
     if (frame.equal == 3) inertia.x = inertia.y = inertia.z = trace(tensor) / 3.0;
     if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
+    s.pebbles = std::move(pebbles);
+}
 
-    for (std::size_t a = 0; a < pebbles.size(); ++a)
-        for (std::size_t b = a + 1; b < pebbles.size(); ++b) {
-            const double touching = pebbles[a].radius + pebbles[b].radius;
-            const double distance = norm(pebbles[b].offset - pebbles[a].offset);
+} // namespace detail
+
+/// Shape from pebbles in any frame (m): moves the origin to the mass centre, turns to principal axes (ascending
+/// moments; a body of revolution has its axis first; an isotropic one keeps the given axes), finds the bonds (|gap| <
+/// 1e-3 of the smallest radius) and the exact mass properties. Throws input_error if a radius is not positive, a number
+/// is not finite, or two pebbles overlap by more than 1e-9 d. Pieces without a common bond are accepted: see `pieces`.
+inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
+    const std::string option = fmt::format("shape '{}'", name);
+    if (pebbles.empty())
+        throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
+    shape s;
+    s.name = std::move(name);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < pebbles.size(); ++i) {
+        const shape_pebble& p = pebbles[i];
+        if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
+            throw input_error(option,
+                              fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
+                              "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
+        smallest = std::min(smallest, p.radius);
+    }
+    detail::complete(s, std::move(pebbles));
+    const std::vector<shape_pebble>& all = s.pebbles;
+    for (std::size_t a = 0; a < all.size(); ++a)
+        for (std::size_t b = a + 1; b < all.size(); ++b) {
+            const double touching = all[a].radius + all[b].radius;
+            const double distance = norm(all[b].offset - all[a].offset);
             const double gap = distance - touching;
             if (gap < -1e-9 * s.diameter)
                 throw input_error(
@@ -213,8 +221,32 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
                     fmt::format("Move them apart, or multiply their radii by {:.12g}.", distance / touching));
             if (gap < 1e-3 * smallest) s.bonds.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
         }
-    s.pebbles = std::move(pebbles);
     return s;
+}
+
+/// Shape of pebbles where they are, which may overlap (they count twice there, as everywhere), with these bonds. Pieces
+/// that bonds do not hold together have none: it is one rigid body, but can never become a cluster. Not checked, unlike
+/// make_shape.
+inline shape rigid_shape(std::string name, std::vector<shape_pebble> pebbles, std::vector<shape_bond> bonds) {
+    shape s;
+    s.name = std::move(name);
+    detail::complete(s, std::move(pebbles));
+    s.bonds = std::move(bonds);
+    if (pieces(s) > 1) s.bonds.clear();
+    return s;
+}
+
+/// The rigid_shape of a run of pebbles of another: pebbles first to first + count - 1, with their bonds among each
+/// other. Its mass_centre and to_input_frame are seen from the principal axes of the whole. first + count is at most
+/// the number of pebbles.
+inline shape part_of(const shape& whole, std::size_t first, std::size_t count) {
+    const auto begin = whole.pebbles.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto from = static_cast<std::int32_t>(first), end = static_cast<std::int32_t>(first + count);
+    std::vector<shape_bond> bonds;
+    for (const shape_bond& b : whole.bonds)
+        if (from <= b.a && b.b < end) bonds.push_back({b.a - from, b.b - from});
+    return rigid_shape(fmt::format("{} [{}, {})", whole.name, first, first + count),
+                       {begin, begin + static_cast<std::ptrdiff_t>(count)}, std::move(bonds));
 }
 
 /// The same shape with another circumscribed diameter d (m). Throws input_error if d is not positive and finite.

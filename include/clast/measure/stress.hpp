@@ -104,6 +104,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         const double over = norm(boundaries::lateral_push(w.touch)) / s.pebbles[at(w.pebble)].radius;
         if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = w.pebble, c.deepest_j = -1;
     });
+    e.each_outer_force([&](std::size_t b, const vec3& force) { net[b] += force; });
     double largest = 0.0, total = 0.0;
     std::size_t bodies = 0;
     const auto body = [&](std::size_t b) {

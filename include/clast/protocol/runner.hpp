@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -32,11 +31,23 @@ class observer {
     virtual ~observer() = default;
     virtual void on_row(const sample&) {}                         ///< one row of the series
     virtual void on_events(const std::vector<fracture_event>&) {} ///< bonds broken since the last call
+    /// A stage begins, before its first row, or has ended, after its last.
     virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
     virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
     /// Between two steps, with all events reported: the place to save a checkpoint.
     virtual void on_pause() {}
     virtual bool stop_requested() { return false; } ///< true: run() returns at the next pause
+};
+
+/// An observer that looks at the scene itself: bodies, contacts, loads. It can change nothing. All pebbles stand where
+/// they are, also those that touch nothing. What it finds out at rows or steps it keeps itself.
+template <triaxial_policies P> class scene_observer : public observer {
+  public:
+    /// With every row, after on_row.
+    virtual void on_scene(const scene<P>&, const sample&) {}
+    /// Steps between two calls of on_step, counted from the beginning of the run, stopped and resumed or not; 0: none.
+    virtual std::int64_t every_steps() const { return 0; }
+    virtual void on_step(const scene<P>&) {} ///< after a step whose number is a multiple of every_steps()
 };
 
 /// Sizes and rates of a test. SI units.
@@ -56,7 +67,7 @@ struct test_plan {
 };
 
 /// Runs the stages of a plan on an engine. State is complete and archived: saving, or not, changes no bit.
-template <triaxial_policies P> class runner {
+template <class P> class runner {
   public:
     using engine_type = engine<P>;
     using boundary_type = typename P::boundary;
@@ -65,11 +76,13 @@ template <triaxial_policies P> class runner {
     engine_type& sim;
     test_plan plan;
 
-    /// `membrane` makes the boundary of the test at the target size from present platen positions.
-    runner(engine_type& e, test_plan p, std::function<boundary_type(const boundary_type&)> membrane)
-        : sim(e), plan(std::move(p)), make_membrane_(std::move(membrane)) {
+    /// `membrane`: of the boundary that takes the vessel's place in a stage with `membrane_here`, at the size that the
+    /// vessel has then.
+    runner(engine_type& e, test_plan p, const boundaries::vessel_settings& membrane)
+        : sim(e), plan(std::move(p)), membrane_(membrane) {
         if (plan.stages.empty())
             throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
+        for (stage& s : plan.stages) take_from_setup(s.axial, plan.height), take_from_setup(s.lateral, plan.radius);
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         reference_height_ = sim.boundary.height();
@@ -83,12 +96,18 @@ template <triaxial_policies P> class runner {
         const auto clock = [&] {
             wall_time_ = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         };
+        scene_watch_ = dynamic_cast<scene_observer<P>*>(&watch);
+        const std::int64_t every = scene_watch_ != nullptr ? scene_watch_->every_steps() : 0;
         begin_due(watch);
         while (stage_ < plan.stages.size()) {
             sim.step();
             ++stage_steps_;
             stage_time_ += sim.dt();
             confining_now();
+            if (every > 0 && sim.totals().steps % every == 0) {
+                sim.place_all();
+                scene_watch_->on_step(sim.state());
+            }
             if (row_due()) {
                 clock();
                 report(watch);
@@ -161,12 +180,10 @@ template <triaxial_policies P> class runner {
         s.friction_dissipation = lost.friction;
         s.damping_dissipation = lost.damping;
         s.bond_dissipation = t.bond_dissipation;
-        const double residual = t.boundary_work + t.initial_energy - s.kinetic_energy - s.elastic_energy -
-                                lost.friction - lost.damping - t.bond_dissipation;
         // of the energy that went through the specimen in this stage: work, or what was lost where no wall works
         const double lost_here = lost.friction + lost.damping - stage_losses_;
         const double work = std::max(std::abs(t.boundary_work - stage_work_), lost_here);
-        s.energy_residual = work > 0.0 ? (residual - stage_residual_) / work : 0.0;
+        s.energy_residual = work > 0.0 ? (unexplained(s) - stage_residual_) / work : 0.0;
         s.steps = t.steps;
         s.dt = sim.dt();
         s.wall_time = wall_time_;
@@ -176,18 +193,17 @@ template <triaxial_policies P> class runner {
     /// Pebbles for pictures; displacement counts from the reference state (0 before it).
     std::vector<pebble_view> pebbles() {
         sim.place_all();
-        const bodies::clumps& s = sim.grains;
+        const auto& s = sim.grains;
         std::vector<pebble_view> out(s.pebble_count());
         for (std::size_t p = 0; p < out.size(); ++p) {
-            const auto g = static_cast<std::size_t>(s.mother[p]);
-            const auto owner = static_cast<std::size_t>(s.owner[p]);
+            const auto pebble = static_cast<std::int32_t>(p);
+            const std::size_t g = s.group_of(pebble);
             pebble_view& v = out[p];
             v.position = s.pebbles[p].x;
             v.radius = s.pebbles[p].radius;
-            v.grain = s.mother[p];
-            v.fragment = s.grains[g].first;
-            v.velocity = s.motion[owner].v;
-            if (owner < s.grain_count()) v.velocity += cross(s.motion[owner].w, s.pebbles[p].x - s.motion[owner].x);
+            v.grain = s.number_of(g);
+            v.fragment = static_cast<std::int32_t>(s.pebbles_of(g).begin);
+            v.velocity = s.velocity_of(pebble);
             if (!reference_.empty()) v.displacement = s.pebbles[p].x - reference_[p];
             sim.breakage().describe(s, p, v);
         }
@@ -203,8 +219,23 @@ template <triaxial_policies P> class runner {
     }
 
   private:
+    /// Makes a drive that counts in parts of the setup one of its own.
+    void take_from_setup(axis_drive& a, double size) const {
+        if (!a.of_setup) return;
+        using kind = axis_drive::kind;
+        a.value *= a.how == kind::reach      ? size
+                   : a.how == kind::stress   ? plan.confining
+                   : a.how == kind::inertial ? plan.inertial_number
+                                             : 1.0;
+        a.of_setup = false;
+    }
     const stage& current() const { return plan.stages[stage_]; }
     double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
+    /// What the audit cannot explain in a state just measured (J).
+    double unexplained(const sample& s) const {
+        return s.boundary_work + sim.totals().initial_energy - s.kinetic_energy - s.elastic_energy -
+               s.friction_dissipation - s.damping_dissipation - s.bond_dissipation - sim.potential_energy();
+    }
     double closing_speed() const { return sim.boundary.velocity(0) + sim.boundary.velocity(1); }
 
     /// Begins the stage that is due, if none is running, and leaves out those that are not needed.
@@ -215,8 +246,8 @@ template <triaxial_policies P> class runner {
                 continue;
             }
             begin_stage();
-            report(watch);
             watch.on_stage(current().name, true);
+            report(watch);
         }
     }
 
@@ -226,7 +257,7 @@ template <triaxial_policies P> class runner {
         ended_by_itself_ = false;
         stage_steps_ = 0, stage_time_ = 0.0, friction_try_ = 0;
         error_sum_ = 0.0, error_count_ = 0;
-        if (s.membrane_here) sim.set_boundary(make_membrane_(sim.boundary));
+        if (s.membrane_here) sim.set_boundary(sim.boundary.resized(membrane_));
         if (s.reference_here) {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
@@ -240,8 +271,7 @@ template <triaxial_policies P> class runner {
         const sample now = measure();
         stage_work_ = now.boundary_work;
         stage_losses_ = now.friction_dissipation + now.damping_dissipation;
-        stage_residual_ = now.boundary_work + sim.totals().initial_energy - now.kinetic_energy - now.elastic_energy -
-                          now.friction_dissipation - now.damping_dissipation - now.bond_dissipation;
+        stage_residual_ = unexplained(now);
         smoothed_p_ = std::max(now.p, 0.01 * plan.confining);
         row_start_ = axial_strain();
         next_row_ = 1;
@@ -395,7 +425,12 @@ template <triaxial_policies P> class runner {
 
     void report(observer& watch) {
         flush_events(watch);
-        watch.on_row(measure());
+        const sample row = measure();
+        watch.on_row(row);
+        if (scene_watch_ != nullptr) {
+            sim.place_all();
+            scene_watch_->on_scene(sim.state(), row);
+        }
         error_sum_ = 0.0, error_count_ = 0;
         const double done = std::abs(axial_strain() - row_start_);
         next_row_ = 1 + static_cast<std::int64_t>(done / plan.row_strain);
@@ -409,16 +444,18 @@ template <triaxial_policies P> class runner {
 
     /// Stops the run where the specimen is no longer one.
     void check_specimen() {
-        const bodies::clumps& s = sim.grains;
+        const auto& s = sim.grains;
         for (std::size_t p = 0; p < s.pebble_count(); ++p) {
-            const auto owner = static_cast<std::size_t>(s.owner[p]);
-            // clumps are looked at by their centre, balls by their own
-            const bool clump = owner < s.grain_count();
-            if (clump && static_cast<std::int32_t>(p) != s.grains[owner].first) continue;
-            if (!sim.boundary.outside(s.motion[owner].x, s.pebbles[p].radius)) continue;
-            const vec3 x = s.motion[owner].x;
+            const auto pebble = static_cast<std::int32_t>(p);
+            // whole grains are looked at by their centre, balls by their own
+            const std::size_t owner = s.body_of(pebble);
+            const bool whole = owner < s.body_count();
+            if (whole && p != s.pebbles_of(owner).begin) continue;
+            const vec3 x = sim.centre_of(pebble);
+            if (!sim.boundary.outside(x, s.pebbles[p].radius)) continue;
             throw run_error(
-                {fmt::format("grain {} escaped ({} of it)", s.mother[p], clump ? "all" : "a fragment"),
+                {fmt::format("grain {} escaped ({} of it)", s.number_of(s.group_of(pebble)),
+                             whole ? "all" : "a fragment"),
                  fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
                  when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
                  "use more rings or tiles, a lower stress or a smaller inertial number"});
@@ -431,7 +468,8 @@ template <triaxial_policies P> class runner {
                              "lower the stress or raise the contact stiffness"});
     }
 
-    std::function<boundary_type(const boundary_type&)> make_membrane_;
+    boundaries::vessel_settings membrane_;
+    scene_observer<P>* scene_watch_ = nullptr; ///< the observer of run(), if it looks at scenes
     std::size_t stage_ = 0;
     bool begun_ = false;
     bool ended_by_itself_ = false;
@@ -450,6 +488,15 @@ template <triaxial_policies P> class runner {
     double friction_ = 0.0, solid_volume_ = 0.0;
     stage_view view_;
     measure::contact_state deepest_;
+};
+
+/// For a bundle that does not fit (triaxial_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!triaxial_policies<P>) class runner<P> : public runner<repaired_test_policies<P>> {
+    static_assert(sizeof(check_test_policies<P>) > 0);
+
+  public:
+    template <class Engine> runner(Engine&, test_plan, const boundaries::vessel_settings&);
 };
 
 } // namespace clast

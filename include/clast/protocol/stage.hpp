@@ -27,6 +27,7 @@ struct axis_drive {
     };
     kind how = kind::hold;
     double value = 0.0;
+    bool of_setup = false; ///< value counts in what the setup of the test says: its size, confining stress or I
 };
 
 namespace drive_by {
@@ -35,6 +36,10 @@ inline axis_drive strain_rate(quantities::rate rate) { return {axis_drive::kind:
 inline axis_drive inertial_number(double i) { return {axis_drive::kind::inertial, i}; }
 inline axis_drive stress(quantities::stress s) { return {axis_drive::kind::stress, s.si()}; }
 inline axis_drive size(quantities::length l) { return {axis_drive::kind::reach, l.si()}; }
+/// In parts of what the setup says (negative: extension): its inertial number, confining stress, height or radius.
+inline axis_drive inertial_number_of_setup(double part = 1.0) { return {axis_drive::kind::inertial, part, true}; }
+inline axis_drive stress_of_setup(double part = 1.0) { return {axis_drive::kind::stress, part, true}; }
+inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::reach, part, true}; }
 } // namespace drive_by
 
 /// What a condition may look at; refreshed every few steps, never by the clock.

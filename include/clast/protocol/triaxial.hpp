@@ -7,13 +7,12 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <clast/boundaries/faceted_cylinder.hpp>
+#include <clast/boundaries/vessel_settings.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/quantity.hpp>
@@ -40,7 +39,7 @@ struct table_1 {
 
 /// Contacts of a law that Table 1 knows nothing of, given one by one. At a wall whose law has mu = 0 the law sees
 /// no tangential motion and no history. Its normal stiffness under a small overlap must be positive, for the servo.
-template <contacts::contact_law L> struct contacts_of_law {
+template <class L> struct contacts_of_law {
     L grain;                 ///< pebble against pebble
     L platen;                ///< pebble against platen
     L membrane;              ///< pebble against the lateral wall
@@ -52,11 +51,11 @@ template <contacts::contact_law L> struct contacts_of_law {
 };
 
 /// What the setup of a test asks for its contacts: Table 1 for `contacts::linear`, else the three laws.
-template <contacts::contact_law L>
+template <class L>
 using materials_of = std::conditional_t<std::same_as<L, contacts::linear>, table_1, contacts_of_law<L>>;
 
 /// What a triaxial test is made of. Members without a default must be given, or the program does not compile.
-template <triaxial_policies P> struct triaxial_setup {
+template <class P> struct triaxial_setup {
     shape grain;                         ///< template of all grains
     quantities::length diameter;         ///< of the specimen: of the circle that the membrane's polygon circumscribes
     quantities::length height;           ///< of the specimen as packed
@@ -79,15 +78,17 @@ template <triaxial_policies P> struct triaxial_setup {
 /// Stages of the paper's protocol (section 2.3), as data. Take them, change them, or write your own.
 namespace protocol {
 
+// Sizes, stress and inertial number are those of the setup, unless they are given: a test compares them then.
+
 /// Cloud to specimen: compaction by moving walls and grains, then relaxation at fixed walls until the unbalanced ratio
 /// is below 0.1 % and p' below 1 kPa in three spheres. A specimen that stays loaded tries lower frictions, and as a
 /// last resort servo control to 1 kPa.
-inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
+inline std::vector<stage> preparation() {
     using namespace literals;
     std::vector<stage> s;
     s.push_back({.name = "compact",
-                 .axial = drive_by::size(height),
-                 .lateral = drive_by::size(0.5 * diameter),
+                 .axial = drive_by::size_of_setup(),
+                 .lateral = drive_by::size_of_setup(),
                  .end = until::size_reached(),
                  .breakage = false,
                  .if_stuck = "The specimen is denser than its grains can be packed: raise the porosity."});
@@ -109,36 +110,67 @@ inline std::vector<stage> preparation(quantities::length diameter, quantities::l
     return s;
 }
 
+inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
+    std::vector<stage> s = preparation();
+    s.front().axial = drive_by::size(height);
+    s.front().lateral = drive_by::size(0.5 * diameter);
+    return s;
+}
+
 /// Servo control of membrane and platens to an isotropic stress until the error is below 0.1 % and the specimen rests.
-inline stage consolidation(quantities::stress confining) {
+inline stage consolidation() {
     return {.name = "consolidate",
-            .axial = drive_by::stress(confining),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::stress_of_setup(),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::stresses_within(1e-3) && until::unbalanced_below(1e-3),
             .membrane_here = true,
             .if_stuck = "Grains may go on breaking or rearranging: lower the stress, or allow more steps."};
 }
 
+inline stage consolidation(quantities::stress confining) {
+    stage s = consolidation();
+    s.axial = s.lateral = drive_by::stress(confining);
+    return s;
+}
+
 /// Shear by both platens at a limited inertial number, at constant lateral stress.
-inline stage shear(quantities::stress confining, quantities::ratio strain, double inertial_number = 1e-4) {
+inline stage shear(quantities::ratio strain) {
     return {.name = "shear",
-            .axial = drive_by::inertial_number(inertial_number),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::inertial_number_of_setup(),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::axial_strain(strain),
             .most_steps = 100'000'000,
             .reference_here = true};
 }
+inline stage shear(quantities::stress confining, quantities::ratio strain, double inertial_number = 1e-4) {
+    stage s = shear(strain);
+    s.axial = drive_by::inertial_number(inertial_number);
+    s.lateral = drive_by::stress(confining);
+    return s;
+}
 
 /// Extension from the end of shear until q has fallen to the given value.
-inline stage unloading(quantities::stress confining, quantities::stress q, double inertial_number = 1e-4) {
+inline stage unloading(quantities::stress q) {
     return {.name = "unload",
-            .axial = drive_by::inertial_number(-inertial_number),
-            .lateral = drive_by::stress(confining),
+            .axial = drive_by::inertial_number_of_setup(-1.0),
+            .lateral = drive_by::stress_of_setup(),
             .end = until::deviator_below(q),
             .most_steps = 100'000'000};
 }
+inline stage unloading(quantities::stress confining, quantities::stress q, double inertial_number = 1e-4) {
+    stage s = unloading(q);
+    s.axial = drive_by::inertial_number(-inertial_number);
+    s.lateral = drive_by::stress(confining);
+    return s;
+}
 
 /// The paper's test: preparation, consolidation, shear.
+inline std::vector<stage> triaxial_compression(quantities::ratio strain) {
+    std::vector<stage> s = preparation();
+    s.push_back(consolidation());
+    s.push_back(shear(strain));
+    return s;
+}
 inline std::vector<stage> triaxial_compression(quantities::length diameter, quantities::length height,
                                                quantities::stress confining, quantities::ratio strain,
                                                double inertial_number = 1e-4) {
@@ -151,22 +183,16 @@ inline std::vector<stage> triaxial_compression(quantities::length diameter, quan
 } // namespace protocol
 
 /// Specimen, boundary, engine and runner of one test, ready to run.
-template <triaxial_policies P> class triaxial_test {
+template <class P> class triaxial_test {
   public:
     using boundary_type = typename P::boundary;
     using runner_type = runner<P>;
 
-    /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...).
+    /// Throws input_error where the setup makes no sense (tiles smaller than a pebble, a cloud too dense, ...), and
+    /// where stages go to sizes or lateral stresses none of which is that of the setup.
     triaxial_test(triaxial_setup<P> setup, std::vector<stage> stages)
         : setup_(check(std::move(setup))), sim_(make_engine(setup_)),
-          run_(sim_, make_plan(setup_, std::move(stages)),
-               [s = membrane_settings(setup_)](const boundary_type& vessel) {
-                   boundaries::cylinder_settings m = s;
-                   m.radius = vessel.radius();
-                   m.bottom = vessel.bottom();
-                   m.top = vessel.top();
-                   return boundary_type(m);
-               }) {}
+          run_(sim_, make_plan(setup_, std::move(stages)), membrane_settings(setup_)) {}
     triaxial_test(const triaxial_test&) = delete;
     triaxial_test& operator=(const triaxial_test&) = delete;
 
@@ -195,67 +221,91 @@ template <triaxial_policies P> class triaxial_test {
         demand(h >= 2.2 * s.grain.diameter, "height (m)", h, "at least 2.2 grain diameters",
                "Make the specimen larger.");
         demand(s.confining.si() > 0.0, "confining (Pa)", s.confining.si(), "> 0", "The paper uses 1.5 and 2 MPa.");
-        demand(s.tiles_per_ring >= 6, "tiles_per_ring", s.tiles_per_ring, ">= 6", "The paper uses 20.");
         demand(s.damping >= 0.0 && s.damping < 1.0, "damping", s.damping, "0 to below 1", "0.7 is the default.");
         demand(s.safety > 0.0 && s.safety <= 1.0, "safety", s.safety, "above 0, at most 1", "0.8 is the default.");
         demand(s.inertial_number > 0.0 && s.inertial_number <= 1e-2, "inertial_number", s.inertial_number,
                "above 0, at most 0.01", "1e-4 is quasi-static; 1e-3 is the usual upper bound.");
         demand(s.vessel >= 1.2, "vessel", s.vessel, "at least 1.2", "1.8 is the default.");
         demand(s.threads >= 1, "threads", s.threads, ">= 1", "Take available_threads().");
-        const double pebble = 2.0 * smallest_radius(s.grain);
-        const double width = 2.0 * std::tan(std::numbers::pi / s.tiles_per_ring) * 0.5 * d;
-        demand(width >= pebble, "tiles_per_ring", s.tiles_per_ring, "tiles at least as wide as the smallest pebble",
-               "Take fewer tiles per ring.");
-        if constexpr (boundary_type::moves != boundaries::moving_unit::wall)
-            demand(h / s.rings >= pebble, "rings", s.rings, "tiles at least as high as the smallest pebble",
-                   "Take fewer rings.");
         return s;
+    }
+    /// Stages may go to several sizes and stresses on their way, but the ones that the setup was made for are among
+    /// them: number of grains, speeds and rows follow from those. Stresses of seating, below 1 %, are free.
+    static void compare(const triaxial_setup<P>& s, const std::vector<stage>& stages) {
+        const auto one_of_them = [&](const char* name, const char* unit, double si_to_unit, double expected,
+                                     auto&& target_of) {
+            const stage* other = nullptr;
+            for (const stage& one : stages) {
+                const double target = target_of(one);
+                if (!(target > 0.0)) continue;
+                if (std::abs(target - expected) <= 1e-9 * expected) return;
+                other = &one;
+            }
+            if (other != nullptr)
+                throw input_error(
+                    fmt::format("{} of the setup, and of stage '{}'", name, other->name),
+                    fmt::format("{:g} and {:g} {}", si_to_unit * expected, si_to_unit * target_of(*other), unit),
+                    "the same in the setup and in one of the stages",
+                    "Leave it out of the stages: protocol::triaxial_compression(25_percent) takes it from the setup.");
+        };
+        using kind = axis_drive::kind;
+        const auto target = [](const axis_drive& a, kind how, double of_setup) {
+            return a.how != how ? 0.0 : a.of_setup ? a.value * of_setup : a.value;
+        };
+        const double d = s.diameter.si(), h = s.height.si(), sigma = s.confining.si();
+        one_of_them("diameter", "mm", 1e3, d,
+                    [&](const stage& one) { return 2.0 * target(one.lateral, kind::reach, 0.5 * d); });
+        one_of_them("height", "mm", 1e3, h, [&](const stage& one) { return target(one.axial, kind::reach, h); });
+        one_of_them("confining", "kPa", 1e-3, sigma, [&](const stage& one) {
+            const double stress = target(one.lateral, kind::stress, sigma);
+            return one.skip_if_relaxed || stress < 0.01 * sigma ? 0.0 : stress;
+        });
     }
     static double smallest_radius(const shape& s) {
         double r = s.circumscribed_radius;
         for (const shape_pebble& p : s.pebbles) r = std::min(r, p.radius);
         return r;
     }
-    static boundaries::cylinder_settings membrane_settings(const triaxial_setup<P>& s) {
-        boundaries::cylinder_settings m;
+    static boundaries::vessel_settings membrane_settings(const triaxial_setup<P>& s) {
+        boundaries::vessel_settings m;
         m.radius = 0.5 * s.diameter.si();
         m.bottom = -0.5 * s.height.si();
         m.top = 0.5 * s.height.si();
         m.rings = s.rings;
         m.tiles_per_ring = s.tiles_per_ring;
         m.smallest_radius = smallest_radius(s.grain);
+        for (const shape_pebble& p : s.grain.pebbles) m.largest_radius = std::max(m.largest_radius, p.radius);
         // Steps up to a grain, or a quarter of the radius in a slender specimen, where a tile that finds no grain would
         // else dig through to the axis. The paper's limit is the smallest particle, so that nothing slips out between
         // two rings; here tiles have ledges and nothing can, and with the smallest pebble of 14B (4.6 mm) the confining
         // stress of a bulging specimen was off by up to 0.8 %.
-        m.largest_gap = m.largest_step = std::max(2.0 * m.smallest_radius, std::min(s.grain.diameter, 0.25 * m.radius));
+        m.largest_gap = std::max(2.0 * m.smallest_radius, std::min(s.grain.diameter, 0.25 * m.radius));
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
         m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, 1.0 / r, 0.0});
         if constexpr (std::same_as<typename P::contact, contacts::linear>) {
             m.platen_stiffness = s.materials.platen.normal_stiffness;
-            m.tile_stiffness = s.materials.membrane.normal_stiffness;
+            m.wall_stiffness = s.materials.membrane.normal_stiffness;
         }
         return m;
     }
     static engine<P> make_engine(const triaxial_setup<P>& s) {
-        bodies::clumps sp;
+        typename P::body sp;
         sp.density = s.materials.density;
-        sp.shapes.push_back(s.grain);
-        const double r = 0.5 * s.diameter.si(), h = s.height.si();
-        // porosity counts in the polygon that encloses the specimen, not in the inscribed circle
-        const double section = s.tiles_per_ring * std::tan(std::numbers::pi / s.tiles_per_ring) * r * r;
-        const auto count = static_cast<std::size_t>(std::llround((1.0 - s.porosity) * section * h / s.grain.volume));
-        protocol::add_cloud(sp, 0, count, {s.vessel * r, -0.5 * s.vessel * h, 0.5 * s.vessel * h}, s.seed);
-        boundaries::cylinder_settings vessel = membrane_settings(s);
-        vessel.radius *= s.vessel;
-        vessel.bottom *= s.vessel;
-        vessel.top *= s.vessel;
+        boundaries::vessel_settings sizes = membrane_settings(s);
+        // porosity counts in what encloses the specimen, a polygon or a square, not in the inscribed circle
+        const double volume = boundary_type::made(sizes).volume();
+        const auto count = static_cast<std::size_t>(std::llround((1.0 - s.porosity) * volume / s.grain.volume));
+        sizes.radius *= s.vessel;
+        sizes.bottom *= s.vessel;
+        sizes.top *= s.vessel;
+        boundary_type vessel = boundary_type::made(sizes);
+        protocol::add_cloud(sp, s.grain, count, protocol::inside(vessel), s.seed);
         // grains set off towards the centre with the walls (paper section 2.3: walls and particles move)
         const test_plan defaults;
         const double rate = defaults.packing_rate_before_contact * s.inertial_number *
                             std::sqrt(s.confining.si() / sp.density) / s.grain.diameter;
-        for (body_motion& m : sp.motion) m.v = -rate * m.x;
+        for (std::size_t b = 0; b < sp.body_count(); ++b) sp.shift(b, {}, -rate * sp.centre(b));
         return engine<P>({.grain_contact = s.materials.between_grains(),
                           .platen_contact = s.materials.at_platen(),
                           .lateral_contact = s.materials.at_membrane(),
@@ -264,10 +314,11 @@ template <triaxial_policies P> class triaxial_test {
                           .scheme = {.damping = s.damping},
                           .safety = s.safety,
                           .run = execution(s.threads)},
-                         std::move(sp), boundary_type(vessel));
+                         std::move(sp), std::move(vessel));
     }
     static test_plan make_plan(const triaxial_setup<P>& s, std::vector<stage> stages) {
         test_plan p;
+        compare(s, stages);
         p.stages = std::move(stages);
         p.radius = 0.5 * s.diameter.si();
         p.height = s.height.si();
@@ -281,6 +332,15 @@ template <triaxial_policies P> class triaxial_test {
     triaxial_setup<P> setup_;
     engine<P> sim_;
     runner_type run_;
+};
+
+/// For a bundle that does not fit (triaxial_policies): an error that says what is missing, and nothing after it.
+template <class P>
+requires(!triaxial_policies<P>) class triaxial_test<P> : public triaxial_test<repaired_test_policies<P>> {
+    static_assert(sizeof(check_test_policies<P>) > 0);
+
+  public:
+    triaxial_test(triaxial_setup<P>, std::vector<stage>);
 };
 
 } // namespace clast

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <clast/bonds/lattice.hpp>
@@ -20,7 +21,13 @@ enum class birth : std::uint8_t {
 /// in the same place, joined by parallel bonds. Positions, velocities, contact forces and their histories carry over,
 /// so mass, momentum and kinetic energy are continuous.
 struct modified {
+    static constexpr bool replaces = true;
     static constexpr bool makes_bonds = true;
+
+    /// The bonds with which a cluster will be born.
+    struct plan {
+        std::vector<bonds::state> born;
+    };
 
     bonds::parallel bond;    ///< material of the bonds
     double trigger = 0.9;    ///< utilisation at which a clump is replaced, > 0 (paper: 90 %)
@@ -33,8 +40,20 @@ struct modified {
         if (how == birth::zero_force) return std::vector<bonds::state>(lattice.ends.size());
         return lattice.statics(load, q, w);
     }
+
+    int looks_every() const { return check_interval; }
+    /// A clump at its trigger whose shape has bonds: they are solved for its present load.
+    template <class View> std::optional<plan> wants(const View& clump) const {
+        if (clump.shape().bonds.empty() || !(clump.utilisation() >= trigger)) return std::nullopt;
+        return plan{born(clump.lattice(), clump.pebble_loads(), clump.orientation(), clump.spin())};
+    }
+    /// Balls in the place of the clump, joined by bonds as strong or weak as the clump was among its like.
+    template <class Surgery> void act(std::int32_t grain, const plan& p, Surgery& surgery) const {
+        surgery.release(grain);
+        surgery.bond(grain, p.born, surgery.strength_factor(grain));
+    }
 };
 
-static_assert(bonding<modified>);
+static_assert(replacing<modified>);
 
 } // namespace clast::replacements

@@ -6,7 +6,7 @@ namespace clast::replacements {
 
 /// No replacement: grains stay rigid clumps, and the engine holds no ball, no bond and no criterion.
 struct none {
-    static constexpr bool makes_bonds = false;
+    static constexpr bool replaces = false;
 };
 
 } // namespace clast::replacements

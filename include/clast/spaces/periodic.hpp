@@ -149,10 +149,11 @@ class periodic {
             for (int a = 0; a < 3; ++a) steps[a] = -std::floor(one.centre[a] / edges_[a] + 0.5);
             if (steps == vec3{}) continue;
             const auto body = static_cast<std::size_t>(one.id);
-            // to be moved by a moving face changes a grain's energy
-            const double before = s.grains.kinetic_energy(body);
+            // to be moved by a moving face, or to another place in a field, changes a grain's energy
+            const auto energy = [&] { return s.grains.kinetic_energy(body) + s.potential_energy(body); };
+            const double before = energy();
             s.grains.shift(body, scale(steps, edges_), scale(steps, edge_speeds()));
-            s.totals.boundary_work += s.grains.kinetic_energy(body) - before;
+            s.totals.boundary_work += energy() - before;
             s.grains.place(body);
             one.centre = s.grains.centre(body);
         }

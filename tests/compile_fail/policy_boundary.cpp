@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A wall that does not say what work it does.
+// first error: policy boundary of the bundle lacks `power\(
+// most lines: 15
+#include <clast/clast.hpp>
+
+struct wall : clast::boundaries::box {
+    using box::box;
+#ifdef CLAST_BREAK
+    int power = 0; // hides the work
+#endif
+};
+
+struct bundle : clast::triaxial_policies_default {
+    using breakage = clast::criteria::none;
+    using replacement = clast::replacements::none;
+    using boundary = wall;
+};
+
+double load();
+double load() {
+    clast::bodies::clumps grains;
+    grains.add(grains.kind_of(clast::shapes::tetrahedron_4(0.02)), {}, {});
+    clast::engine<bundle> e({.grain_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
+                             .platen_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
+                             .lateral_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
+                             .breakage = {},
+                             .replacement = {}},
+                            std::move(grains), wall({{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, 3.2e8, 3e6}));
+    e.drives.platens.value = 0.1;
+    e.step(10);
+    return e.loads()[0].force + e.dt() + e.kinetic_energy() + e.grains.solid_volume();
+}
