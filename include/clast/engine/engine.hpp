@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,8 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <fmt/core.h>
 
 #include <clast/boundaries/none.hpp>
 #include <clast/core/errors.hpp>
@@ -94,8 +97,11 @@ template <class P> class engine : private scene<P> {
         if constexpr (requires { settings.grain_contact.mu; }) return settings.grain_contact.mu;
         return 0.0;
     }
-    /// Sets it; histories stay and are cut at the new limit in the next step.
+    /// Sets it; histories stay and are cut at the new limit in the next step. Throws input_error if it is negative or
+    /// not finite.
     void set_friction(double mu) {
+        if (!(mu >= 0.0 && std::isfinite(mu)))
+            throw input_error("set_friction", fmt::format("{:g}", mu), ">= 0, finite", "The paper uses 0.3.");
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
     /// To be called after velocities or the field were set by hand, so that the audit knows of their energy.
@@ -143,6 +149,7 @@ template <class P> class engine : private scene<P> {
 
     void begin() {
         scene_type& s = own();
+        check(settings, grains.density);
         s.broken.begin(grains, settings);
         s.memory.resize(grains.body_count());
         s.replacing.begin(grains.grain_count());

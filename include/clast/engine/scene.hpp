@@ -24,28 +24,11 @@
 #include <clast/engine/list_widths.hpp>
 #include <clast/engine/policies.hpp>
 #include <clast/engine/replacement_state.hpp>
+#include <clast/engine/settings.hpp>
 #include <clast/fields/concepts.hpp>
 #include <clast/replacements/concepts.hpp>
 
 namespace clast {
-
-/// Parameters of an engine that are values, not types. SI units.
-template <class P> struct engine_settings {
-    typename P::contact grain_contact;   ///< pebble against pebble
-    typename P::contact platen_contact;  ///< pebble against platen
-    typename P::contact lateral_contact; ///< pebble against the lateral wall
-    typename P::breakage breakage;
-    typename P::replacement replacement;
-    typename P::scheme scheme{}; ///< how bodies go on, and local damping
-    double safety = 0.8;         ///< of the time-step estimate, in (0, 1]
-    double skin = 0.0;           ///< m: where the skin of the lists starts; 0: from the size of the grains
-    double largest_step = 1e-4;  ///< s: bound of the time step where nothing touches
-    /// Of the smallest radius: least overlap at which a law is asked for its stiffness where nothing touches.
-    double expected_overlap = 1e-4;
-    execution run = execution(1);
-    std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
-    [[no_unique_address]] typename P::field field{}; ///< on every body; like damping not part of a checkpoint
-};
 
 /// Totals that an audit needs (J), and counters.
 struct engine_totals {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The parameters of an engine that are values, and what they may be.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <fmt/core.h>
+
+#include <clast/contacts/concepts.hpp>
+#include <clast/core/errors.hpp>
+#include <clast/core/parallel.hpp>
+
+namespace clast {
+
+/// Parameters of an engine that are values, not types. SI units.
+template <class P> struct engine_settings {
+    typename P::contact grain_contact;   ///< pebble against pebble
+    typename P::contact platen_contact;  ///< pebble against platen
+    typename P::contact lateral_contact; ///< pebble against the lateral wall
+    typename P::breakage breakage;
+    typename P::replacement replacement;
+    typename P::scheme scheme{}; ///< how bodies go on, and local damping
+    double safety = 0.8;         ///< of the time-step estimate, in (0, 1]
+    double skin = 0.0;           ///< m: where the skin of the lists starts; 0: from the size of the grains
+    double largest_step = 1e-4;  ///< s: bound of the time step where nothing touches
+    /// Of the smallest radius: least overlap at which a law is asked for its stiffness where nothing touches.
+    double expected_overlap = 1e-4;
+    execution run = execution(1);
+    std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
+    [[no_unique_address]] typename P::field field{}; ///< on every body; like damping not part of a checkpoint
+};
+
+/// Throws input_error, naming the member, where a setting makes no sense. density: of the bodies (kg/m^3).
+template <class P> void check(const engine_settings<P>& s, double density) {
+    const auto demand = [](bool good, const char* name, double value, const char* allowed, const char* way_out) {
+        if (!good) throw input_error(name, fmt::format("{:g}", value), allowed, way_out);
+    };
+    demand(s.safety > 0.0 && s.safety <= 1.0, "engine_settings.safety", s.safety, "above 0, at most 1",
+           "0.8 is the default; above 1 a step may be unstable.");
+    if constexpr (requires { s.scheme.damping; })
+        demand(s.scheme.damping >= 0.0 && s.scheme.damping < 1.0, "engine_settings.scheme.damping", s.scheme.damping,
+               "0 to below 1", "0.7 is the default; 0 takes nothing.");
+    demand(s.skin >= 0.0 && std::isfinite(s.skin), "engine_settings.skin", s.skin, ">= 0 m",
+           "0 takes it from the size of the grains.");
+    demand(s.largest_step > 0.0, "engine_settings.largest_step", s.largest_step, "> 0 s", "1e-4 s is the default.");
+    demand(s.expected_overlap > 0.0 && s.expected_overlap < 1.0, "engine_settings.expected_overlap", s.expected_overlap,
+           "above 0, below 1", "1e-4 of the smallest radius is the default.");
+    const auto law = [&](const typename P::contact& one, const char* name) {
+        if constexpr (contacts::frictional<typename P::contact>)
+            demand(one.mu >= 0.0 && std::isfinite(one.mu), name, one.mu, ">= 0, finite", "The paper uses 0.3.");
+    };
+    law(s.grain_contact, "engine_settings.grain_contact.mu");
+    law(s.platen_contact, "engine_settings.platen_contact.mu");
+    law(s.lateral_contact, "engine_settings.lateral_contact.mu");
+    demand(density > 0.0 && std::isfinite(density), "density of the bodies", density, "> 0 kg/m^3",
+           "2650 kg/m^3 is that of quartz.");
+}
+
+} // namespace clast

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <clast/engine/settings.hpp>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <clast/bodies/spheres.hpp>
+#include <clast/boundaries/none.hpp>
+#include <clast/engine/engine.hpp>
+
+#include <catch.hpp>
+
+using namespace clast;
+
+namespace {
+struct spheres_alone : triaxial_policies_default {
+    using body = bodies::spheres;
+    using boundary = boundaries::none;
+    using breakage = criteria::none;
+    using replacement = replacements::none;
+};
+using settings_type = engine_settings<spheres_alone>;
+
+std::string refusal(const std::function<void(settings_type&, bodies::spheres&)>& change) {
+    settings_type s{.grain_contact = {1e6, 5e5, 0.3},
+                    .platen_contact = {},
+                    .lateral_contact = {},
+                    .breakage = {},
+                    .replacement = {}};
+    bodies::spheres one;
+    change(s, one);
+    one.add({}, 0.01);
+    try {
+        engine<spheres_alone> e(s, one, spaces::open{});
+        e.step();
+    } catch (const input_error& e) {
+        return e.what();
+    }
+    return {};
+}
+} // namespace
+
+TEST_CASE("values that make no sense are refused by the name of the member, with what is allowed") {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    CHECK(refusal([](settings_type&, bodies::spheres&) {}).empty());
+    const auto names = [](const std::string& text, const std::string& member) {
+        INFO(text);
+        CHECK(text.find(member + ": ") == 0);
+        CHECK(text.find("Allowed: ") != std::string::npos);
+    };
+    for (const double wrong : {0.0, -1.0, 5.0, nan})
+        names(refusal([&](settings_type& s, bodies::spheres&) { s.safety = wrong; }), "engine_settings.safety");
+    for (const double wrong : {1.5, -0.1, nan})
+        names(refusal([&](settings_type& s, bodies::spheres&) { s.scheme.damping = wrong; }),
+              "engine_settings.scheme.damping");
+    for (const double wrong : {-0.3, nan, inf})
+        names(refusal([&](settings_type& s, bodies::spheres&) { s.grain_contact.mu = wrong; }),
+              "engine_settings.grain_contact.mu");
+    for (const double wrong : {0.0, -2650.0, nan})
+        names(refusal([&](settings_type&, bodies::spheres& b) { b.density = wrong; }), "density of the bodies");
+    names(refusal([](settings_type& s, bodies::spheres&) { s.skin = -1e-3; }), "engine_settings.skin");
+    names(refusal([](settings_type& s, bodies::spheres&) { s.largest_step = 0.0; }), "engine_settings.largest_step");
+    names(refusal([](settings_type& s, bodies::spheres&) { s.expected_overlap = 0.0; }),
+          "engine_settings.expected_overlap");
+}
