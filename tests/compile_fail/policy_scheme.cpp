@@ -4,6 +4,8 @@
 // most lines: 15
 #include <clast/clast.hpp>
 
+#include "loaded_grain.hpp"
+
 struct lazy_scheme : clast::integrators::leapfrog {
 #ifdef CLAST_BREAK
     int kick = 0; // hides the kick
@@ -19,16 +21,8 @@ struct bundle : clast::triaxial_policies_default {
 
 double load();
 double load() {
-    clast::bodies::clumps grains;
-    grains.add(grains.kind_of(clast::shapes::tetrahedron_4(0.02)), {}, {});
-    clast::engine<bundle> e({.grain_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
-                             .platen_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
-                             .lateral_contact = clast::contacts::linear{3e6, 1.5e6, 0.3},
-                             .breakage = {},
-                             .replacement = {}},
-                            std::move(grains),
-                            clast::boundaries::box({{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, 3.2e8, 3e6}));
-    e.drives.platens.value = 0.1;
-    e.step(10);
-    return e.loads()[0].force + e.dt() + e.kinetic_energy() + e.grains.solid_volume();
+    clast::engine<bundle> e(
+        {.grain_contact = stiff, .platen_contact = stiff, .lateral_contact = stiff, .breakage = {}, .replacement = {}},
+        one_grain(), small_box());
+    return pressed(e);
 }
