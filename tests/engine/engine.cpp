@@ -20,11 +20,6 @@ namespace {
 
 using rigid = scenes::unbreakable<>;
 
-vec3 momentum(const bodies::clumps& s) {
-    vec3 p;
-    for (std::size_t g = 0; g < s.grain_count(); ++g) p += s.mass_of(s.grains[g]) * s.motion[g].v;
-    return p;
-}
 vec3 angular_momentum(const bodies::clumps& s) {
     vec3 l;
     for (std::size_t g = 0; g < s.grain_count(); ++g)
@@ -57,14 +52,14 @@ TEST_CASE("two clumps that collide keep momentum and angular momentum to roundin
     auto s = scenes::settings<rigid>();
     s.scheme.damping = 0.0;
     engine<rigid> e = scenes::collision(s);
-    const vec3 p = momentum(e.grains), l = angular_momentum(e.grains);
+    const vec3 p = scenes::momentum(e.grains), l = angular_momentum(e.grains);
     double deepest = 0.0;
     for (int k = 0; k < 1500; ++k) {
         e.step();
         e.each_contact([&](const force_row& row, const pebble_pair&) { deepest = std::max(deepest, row.depth); });
     }
     CHECK(deepest > 1e-5); // they met
-    CHECK(norm(momentum(e.grains) - p) < 1e-13 * (norm(p) + 4e-3));
+    CHECK(norm(scenes::momentum(e.grains) - p) < 1e-13 * (norm(p) + 4e-3));
     CHECK(norm(angular_momentum(e.grains) - l) < 1e-13 * norm(l));
     CHECK(e.losses().friction > 0.0);
     CHECK(e.losses().damping == 0.0);
@@ -80,7 +75,7 @@ TEST_CASE("a contact law of plain doubles, without history, works and costs no m
                             .scheme = {.damping = 0.0},
                             .safety = 0.05};
     engine<soft> e = scenes::collision(s);
-    const vec3 p = momentum(e.grains);
+    const vec3 p = scenes::momentum(e.grains);
     const double before = e.kinetic_energy();
     double stored = 0.0;
     while (e.time() < 0.02) {
@@ -90,7 +85,7 @@ TEST_CASE("a contact law of plain doubles, without history, works and costs no m
     CHECK(stored > 0.05 * before);
     CHECK(e.heavy_contacts().history.empty());
     CHECK(e.kinetic_energy() == Approx(before).epsilon(1e-3));
-    CHECK(norm(momentum(e.grains) - p) < 1e-13 * (norm(p) + 4e-3));
+    CHECK(norm(scenes::momentum(e.grains) - p) < 1e-13 * (norm(p) + 4e-3));
 }
 
 TEST_CASE("what is absent takes no memory: an unbreakable scene has no balls, no bonds and no events") {

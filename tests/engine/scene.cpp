@@ -20,12 +20,7 @@ using namespace clast;
 
 namespace {
 
-struct spheres_alone : triaxial_policies_default {
-    using body = bodies::spheres;
-    using boundary = boundaries::none;
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
+using spheres_alone = scenes::unbreakable_spheres<>;
 struct in_a_cell : spheres_alone {
     using space = spaces::periodic;
 };

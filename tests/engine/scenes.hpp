@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include <clast/bodies/spheres.hpp>
+#include <clast/boundaries/none.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/contacts/linear.hpp>
@@ -26,11 +28,21 @@ template <class Boundary = boundaries::solid_strips> struct unbreakable : triaxi
     using replacement = replacements::none;
     using boundary = Boundary;
 };
+template <class Boundary = boundaries::none> struct unbreakable_spheres : unbreakable<Boundary> {
+    using body = bodies::spheres;
+};
 template <class Boundary = boundaries::solid_strips> struct breakable : triaxial_policies_default {
     using boundary = Boundary;
 };
 
 inline constexpr contacts::piece pebble{5.8e6, 2.9e6, 0.3}, platen{3.2e8, 1.6e8, 0.0}, membrane{3.2e6, 1.6e6, 0.0};
+
+/// Of all clumps (N s).
+inline vec3 momentum(const bodies::clumps& s) {
+    vec3 p;
+    for (std::size_t g = 0; g < s.grain_count(); ++g) p += s.mass_of(s.grains[g]) * s.motion[g].v;
+    return p;
+}
 
 /// A cylinder around the origin (m).
 inline boundaries::cylinder_settings cylinder(double radius, double height, double smallest_radius = 4e-3) {

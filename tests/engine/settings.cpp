@@ -11,15 +11,12 @@
 
 #include <catch.hpp>
 
+#include "engine/scenes.hpp"
+
 using namespace clast;
 
 namespace {
-struct spheres_alone : triaxial_policies_default {
-    using body = bodies::spheres;
-    using boundary = boundaries::none;
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
+using spheres_alone = scenes::unbreakable_spheres<>;
 using settings_type = engine_settings<spheres_alone>;
 
 std::string refusal(const std::function<void(settings_type&, bodies::spheres&)>& change) {

@@ -11,15 +11,12 @@
 
 #include <catch.hpp>
 
+#include "engine/scenes.hpp"
+
 using namespace clast;
 
 namespace {
-struct spheres_alone : triaxial_policies_default {
-    using body = bodies::spheres;
-    using boundary = boundaries::none;
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
+using spheres_alone = scenes::unbreakable_spheres<>;
 constexpr double kn = 1e6, ks = 5e5, r = 0.01;
 
 /// n spheres in a row, overlapping by a hundredth.

@@ -19,12 +19,7 @@ using namespace clast;
 
 namespace {
 
-struct ball_in_box : triaxial_policies_default {
-    using body = bodies::spheres;
-    using boundary = boundaries::box;
-    using breakage = criteria::none;
-    using replacement = replacements::none;
-};
+using ball_in_box = scenes::unbreakable_spheres<boundaries::box>;
 constexpr double r = 0.01, kn = 1e6, ks = 8e5, mu = 0.4, depth = 1e-4;
 
 /// A ball pressed between floor and ceiling, both frictional or not.

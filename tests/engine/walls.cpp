@@ -18,12 +18,6 @@ namespace {
 
 using rigid = scenes::unbreakable<>;
 
-vec3 momentum(const bodies::clumps& s) {
-    vec3 p;
-    for (std::size_t g = 0; g < s.grain_count(); ++g) p += s.mass_of(s.grains[g]) * s.motion[g].v;
-    return p;
-}
-
 } // namespace
 
 TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen took the momentum") {
@@ -34,15 +28,15 @@ TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen
     sp.add(0, {0, 0, -0.18}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.motion[0].v = {0.0, 0.0, -1.0};
     engine<rigid> e(s, sp, boundaries::solid_strips(scenes::cylinder(0.2, 0.4)));
-    const double before = e.kinetic_energy(), p = momentum(e.grains).z;
+    const double before = e.kinetic_energy(), p = scenes::momentum(e.grains).z;
     double impulse = 0.0;
     while (e.time() < 0.03) {
         e.step();
         impulse += e.loads()[boundaries::bottom_platen].force * e.dt();
     }
     CHECK(impulse > 0.0);
-    CHECK(momentum(e.grains).z - p == Approx(impulse).epsilon(1e-12));
-    CHECK(momentum(e.grains).x == 0.0); // platens are frictionless
+    CHECK(scenes::momentum(e.grains).z - p == Approx(impulse).epsilon(1e-12));
+    CHECK(scenes::momentum(e.grains).x == 0.0); // platens are frictionless
     CHECK(e.elastic_energy() == 0.0);
     CHECK(e.kinetic_energy() == Approx(before).epsilon(1e-3));
     CHECK(e.totals().boundary_work == 0.0);
@@ -62,7 +56,7 @@ TEST_CASE("a platen that pushes a clump does the work that the clump receives") 
     CHECK(e.elastic_energy() == 0.0);
     CHECK(e.kinetic_energy() > 1e-4);
     CHECK(e.totals().boundary_work == Approx(e.kinetic_energy()).epsilon(1e-3));
-    CHECK(momentum(e.grains).z > 0.0);
+    CHECK(scenes::momentum(e.grains).z > 0.0);
 }
 
 namespace {
