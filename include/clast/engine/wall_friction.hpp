@@ -97,6 +97,9 @@ double friction_power(const S& s, const std::vector<boundaries::wall_row>& wall,
     }
     return power;
 }
+template <class S> double friction_power(const S& s) {
+    return friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
+}
 
 /// Gives the rows of new lists what their pebbles had in the old ones.
 template <class S>

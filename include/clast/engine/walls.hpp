@@ -111,10 +111,10 @@ template <class S> void control_walls(S& s, double span) {
     add_loads(s, s.heavy_wall, 1.0, s.loads, &s.couplings);
     // work of the mean velocity around t_n, in step with the kinetic energy of a leapfrog
     double power = s.boundary.power(s.loads);
-    power += friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
+    power += friction_power(s);
     s.boundary.control(s.loads, s.drives, span, s.couplings);
     power += s.boundary.power(s.loads);
-    power += friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
+    power += friction_power(s);
     s.totals.boundary_work += 0.5 * power * span;
 }
 /// Walls and space go on by a span (s).
