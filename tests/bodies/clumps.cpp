@@ -131,6 +131,60 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
     CHECK(move(lost, bodies) == margin_use::not_finite);
 }
 
+TEST_CASE("a clump of half the size of its shape is one of the shape of half the size, to the last bit, as it moves") {
+    // half, because then all powers of the scale are exact
+    const shape big = shapes::by_name("14B", 0.04), small = scaled_to(big, 0.5 * big.diameter);
+    random_stream random{5, 3};
+    bodies::clumps by_scale, by_shape;
+    by_scale.shapes = {big}, by_shape.shapes = {small};
+    std::vector<moving_body> load;
+    std::vector<bodies::clumps::reference> since;
+    body_items wanted{{0}, {}};
+    for (std::size_t g = 0; g < 5; ++g) {
+        const vec3 centre = direction(random), spin = 3.0 * direction(random);
+        const quaternion q = orientation(random);
+        by_scale.add(0, centre, q, 0.5), by_shape.add(0, centre, q);
+        by_scale.set_spin(g, spin), by_shape.set_spin(g, spin);
+        load.push_back({g, {direction(random), 1e-3 * direction(random), 0.0}});
+        since.push_back(by_shape.refer(g));
+        for (std::size_t p = by_shape.pebbles_of(g).begin; p < by_shape.pebbles_of(g).end; ++p)
+            wanted.items.push_back(static_cast<std::int32_t>(p));
+        wanted.start.push_back(static_cast<std::uint32_t>(wanted.items.size()));
+        CHECK(by_scale.body_mass(g) == by_shape.body_mass(g));
+        CHECK(by_scale.body_inertia(g) == by_shape.body_inertia(g));
+        CHECK(by_scale.bounding_radius(g) == small.circumscribed_radius);
+        CHECK(by_scale.kinetic_energy(g) == by_shape.kinetic_energy(g));
+        CHECK(by_scale.diameter_of(by_scale.grains[g]) == small.diameter);
+        CHECK(by_scale.volume_of(by_scale.grains[g]) == small.volume);
+    }
+    CHECK(by_scale.solid_volume() == by_shape.solid_volume());
+    CHECK(by_scale.smallest_mass() == by_shape.smallest_mass());
+    const std::vector<double> margins(5, 1.0);
+    const auto same = [&] {
+        CHECK(checksum(by_scale.pebbles) == checksum(by_shape.pebbles));
+        CHECK(checksum(by_scale.motion) == checksum(by_shape.motion));
+        CHECK(checksum(by_scale.turning) == checksum(by_shape.turning));
+        for (std::size_t g = 0; g < by_shape.grain_count(); ++g)
+            CHECK(by_scale.moved(g, since[g % 5], {1, 1, 1}) == by_shape.moved(g, since[g % 5], {1, 1, 1}));
+    };
+    same();
+    for (int k = 0; k < 3; ++k)
+        for (bodies::clumps* s : {&by_scale, &by_shape})
+            s->advance(load, integrators::rule<integrators::leapfrog>{{0.3}, {}, 1e-4, 1e-4}, wanted,
+                       {since, margins, {1, 1, 1}}, [](std::size_t) { return 0.0; });
+    same();
+    for (bodies::clumps* s : {&by_scale, &by_shape}) {
+        s->place(2);
+        const shape whole = s->shapes[0];
+        const std::int32_t front = s->kind_of(part_of(whole, 0, 6)), back = s->kind_of(part_of(whole, 6, 8));
+        const clump_part parts[] = {{0, front}, {6, back}};
+        s->split(1, parts);
+    }
+    CHECK(by_scale.grain_count() == 6);
+    CHECK(by_scale.grains[2].scale == 0.5);
+    same();
+}
+
 TEST_CASE("a spin that is set has its angular momentum, and about an axis whose inverse inertia is 0 none turns") {
     bodies::clumps s;
     s.shapes = {make_shape("pair", {{{-0.01, 0, 0}, 0.01}, {{0.01, 0, 0}, 0.01}})};

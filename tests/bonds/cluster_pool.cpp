@@ -45,11 +45,12 @@ struct world {
 
     std::size_t pebbles() const { return pool.shape().size(); }
 
-    std::size_t add(const quaternion& q = {}, const std::vector<state>& born = {}, double strength = 1.0) {
-        for (const vec3& x : pool.shape().offset) position.push_back(rotate(q, x));
+    std::size_t add(const quaternion& q = {}, const std::vector<state>& born = {}, double strength = 1.0,
+                    double scale = 1.0) {
+        for (const vec3& x : pool.shape().offset) position.push_back(rotate(q, scale * x));
         motion.resize(position.size());
         load.resize(position.size());
-        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born, strength);
+        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born, strength, scale);
     }
     /// Of a bond in `later` seconds, at the present velocities.
     vec3 normal(std::size_t cluster, std::size_t bond, double later = 0.0) const {
@@ -531,6 +532,115 @@ TEST_CASE("clusters that change seats keep their bits and the order in which the
         living += packed.pool.intact_bonds(c) > 0;
     }
     CHECK(packed.pool.batches() == (living + lanes - 1) / lanes);
+}
+
+TEST_CASE("a cluster of a quarter of the size of its shape is one of the shape of that size, to the last bit") {
+    // powers of four, because then roots are exact, too; frequencies of the readings are 8, 2 and 4 times as high
+    const shape big = shapes::tetrahedron_4(0.08), small = scaled_to(big, 0.25 * big.diameter);
+    for (const stiffness_reading reading :
+         {stiffness_reading::force, stiffness_reading::per_area, stiffness_reading::modulus}) {
+        parallel bond;
+        bond.reading = reading;
+        bond.friction_angle = 0.5;
+        bond.radius_multiplier = 0.75;
+        if (reading == stiffness_reading::per_area) bond.normal_stiffness = 1e13, bond.shear_stiffness = 5e12;
+        if (reading == stiffness_reading::modulus) bond.normal_stiffness = 5e10, bond.shear_stiffness = 2e10;
+        world by_scale(big, bond, 0.3), by_shape(small, bond, 0.3);
+        by_scale.packs = by_shape.packs = true;
+        random_stream random{9, 21};
+        for (int c = 0; c < 11; ++c) {
+            const quaternion q = orientation(random);
+            const double strength = uniform(random, 0.5, 2.0);
+            const std::vector<pebble_load> load = balanced(random, by_shape.pool.shape(), q, 500.0);
+            const vec3 spin = direction(random);
+            const auto born = by_shape.pool.shape().statics(load, q, spin);
+            const auto from_scale = by_scale.pool.shape().statics(load, q, spin, 0.25);
+            for (std::size_t b = 0; b < born.size(); ++b) REQUIRE(same(born[b], from_scale[b]));
+            by_scale.add(q, from_scale, strength, 0.25), by_shape.add(q, born, strength);
+        }
+        for (std::size_t k = 0; k < by_shape.load.size(); ++k)
+            by_scale.load[k] = by_shape.load[k] = {1200.0 * direction(random), 2.0 * direction(random)};
+        CHECK(by_scale.pool.substeps(1e-5, 0.25) == by_shape.pool.substeps(1e-5));
+        for (int i = 0; i < 60; ++i) by_scale.step(2e-6), by_shape.step(2e-6);
+        CHECK(by_shape.broken.size() > 10);
+        CHECK(by_shape.stored() > 0.0);
+        CHECK(by_scale.stored() == by_shape.stored());
+        CHECK(by_scale.dissipated == by_shape.dissipated);
+        REQUIRE(by_scale.broken.size() == by_shape.broken.size());
+        for (std::size_t k = 0; k < by_shape.broken.size(); ++k) {
+            const break_report &a = by_scale.broken[k], &b = by_shape.broken[k];
+            REQUIRE(std::tuple(a.cluster, a.bond, a.mode, a.step) == std::tuple(b.cluster, b.bond, b.mode, b.step));
+            REQUIRE(same(a.before, b.before));
+            const auto c = static_cast<std::size_t>(a.cluster), bond_of = static_cast<std::size_t>(a.bond);
+            CHECK(by_scale.pool.energy_of(c, bond_of, a.before) == by_shape.pool.energy_of(c, bond_of, b.before));
+        }
+        for (std::size_t k = 0; k < by_shape.motion.size(); ++k) {
+            REQUIRE(by_scale.motion[k].velocity == by_shape.motion[k].velocity);
+            REQUIRE(by_scale.motion[k].spin == by_shape.motion[k].spin);
+            REQUIRE(by_scale.position[k] == by_shape.position[k]);
+        }
+    }
+}
+
+TEST_CASE("clusters of many sizes side by side: each has the bits that it has alone, and the steps that it needs") {
+    const shape s = shapes::tetrahedron_4(0.02);
+    random_stream random{9, 22};
+    const double dt = 2e-6;
+    world all(s, parallel{}, 0.7);
+    all.packs = true;
+    std::vector<double> scale;
+    for (int c = 0; c < 30; ++c) {
+        scale.push_back(uniform(random, 0.2, 1.5));
+        all.add(orientation(random), {}, 1.0, scale.back());
+    }
+    for (std::size_t k = 0; k < all.load.size(); ++k) {
+        const double size = scale[k / 4] * scale[k / 4];
+        all.load[k] = {(size * 3000.0) * direction(random), (size * scale[k / 4] * 2.0) * direction(random)};
+    }
+    std::vector<world> alone;
+    for (std::size_t c = 0; c < scale.size(); ++c) {
+        world one(s, parallel{}, 0.7);
+        one.add({}, {}, 1.0, scale[c]);
+        for (std::size_t k = 0; k < 4; ++k)
+            one.position[k] = all.position[4 * c + k], one.load[k] = all.load[4 * c + k];
+        alone.push_back(one);
+    }
+    for (int i = 0; i < 30; ++i) {
+        all.step(dt);
+        for (world& one : alone) one.step(dt);
+        if (i == 10) from_bytes(to_bytes(all.pool), all.pool); // saving takes sizes along, and gives other seats
+    }
+    CHECK(all.broken.size() > 20);
+    std::size_t whole = 0;
+    for (std::size_t c = 0; c < scale.size(); ++c) {
+        CHECK(all.pool.scale(c) == scale[c]);
+        CHECK(all.pool.intact_bonds(c) == alone[c].pool.intact_bonds(0));
+        CHECK(all.pool.energy(c) == alone[c].pool.energy(0));
+        whole += all.pool.intact_bonds(c) == 6;
+        for (std::size_t k = 0; k < 4; ++k) REQUIRE(all.motion[4 * c + k].velocity == alone[c].motion[k].velocity);
+        // the highest mode of that size turns by a radian at most, and not by much less
+        const lattice own(scaled_to(s, scale[c] * 0.02), parallel{}, density);
+        const double far = 1e-3; // s: many steps, so that rounding up to a whole number says little
+        CHECK(all.pool.substeps(far, scale[c]) >= far * own.highest_frequency);
+        CHECK(all.pool.substeps(far, scale[c]) <= 1.2 * far * own.highest_frequency + 1.0);
+    }
+    CHECK(whole < scale.size());
+    // no batch holds clusters of two classes, and none is left out
+    all.pool.pack();
+    std::size_t living = 0;
+    for (std::size_t batch = 0; batch < all.pool.batches(); ++batch) {
+        int steps = 0;
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const std::int32_t c = all.pool.living(batch, l);
+            if (c < 0) continue;
+            const int own = all.pool.substeps(1e-3, scale[static_cast<std::size_t>(c)]);
+            CHECK((steps == 0 || own == steps));
+            steps = own, ++living;
+        }
+    }
+    std::size_t with_bonds = 0;
+    for (std::size_t c = 0; c < scale.size(); ++c) with_bonds += all.pool.intact_bonds(c) > 0;
+    CHECK(living == with_bonds);
 }
 
 TEST_CASE("a bond across a gap turns no grain") {

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include <clast/io/archive.hpp>
+#include <clast/measure/digest.hpp>
 
 #include <catch.hpp>
 
@@ -143,4 +145,53 @@ TEST_CASE("looking at a run changes none of its bits") {
         (void)to_bytes(watched);
     }
     CHECK(checksum(watched) == checksum(quiet));
+}
+
+TEST_CASE(
+    "small copies of a large shape are grains of the small shape, to the last bit, through packing and breakage") {
+    using policies = scenes::breakable<boundaries::tiles>;
+    const shape big = shapes::tetrahedron_4(0.08), small = scaled_to(big, 0.25 * big.diameter); // roots are exact, too
+    bodies::clumps by_shape = scenes::empty(small), by_scale = scenes::empty(big);
+    protocol::add_cloud(by_shape, 0, 24, {0.04, -0.04, 0.04}, 3);
+    for (std::size_t g = 0; g < by_shape.grain_count(); ++g)
+        by_scale.add(0, by_shape.motion[g].x, by_shape.turning[g].q, 0.25);
+    const auto run = [&](const bodies::clumps& grains) {
+        engine<policies> e(scenes::settings<policies>(1e6, 0.1), grains,
+                           boundaries::tiles(scenes::cylinder(0.04, 0.08)));
+        e.drives = scenes::isotropic(2e6, 0.5);
+        std::size_t fractures = 0;
+        for (int k = 0; k < 60; ++k) e.step(100), fractures += e.take_events().size();
+        CHECK(e.totals().replaced > 3);
+        CHECK(fractures > 10);
+        return measure::digest(e);
+    };
+    CHECK(run(by_scale) == run(by_shape));
+}
+
+TEST_CASE("grains of sizes from 2 to 5 break side by side: momentum, energy and their own strengths are kept") {
+    using policies = scenes::breakable<>;
+    bodies::clumps grains = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps places = scenes::empty(shapes::tetrahedron_4(0.02));
+    protocol::add_cloud(places, 0, 24, {0.04, -0.04, 0.04}, 3);
+    for (std::size_t g = 0; g < places.grain_count(); ++g)
+        grains.add(0, places.motion[g].x, places.turning[g].q, 0.2 * static_cast<double>(2 + g % 4));
+    auto s = scenes::settings<policies>(3e5, 0.1);
+    s.breakage.strength.d0 = 0.02;
+    s.scheme.damping = 0.3;
+    engine<policies> e(s, grains, boundaries::solid_strips(scenes::cylinder(0.04, 0.08, 1e-3)));
+    e.drives = scenes::isotropic(2e6, 1.5);
+    const double mass = e.grains.density * e.grains.solid_volume();
+    std::set<double> broken;
+    for (int k = 0; k < 100; ++k) {
+        e.step(100);
+        for (const grain& g : e.grains.grains)
+            if (g.cluster != grain::is_whole) broken.insert(g.scale);
+    }
+    CHECK(broken.size() > 1);
+    CHECK(e.take_events().size() > 10);
+    CHECK(e.grains.density * e.grains.solid_volume() == mass);
+    CHECK(std::abs(scenes::residual(e)) < 0.01 * e.totals().boundary_work);
+    for (const grain& g : e.grains.grains)
+        CHECK(e.grains.pebbles[static_cast<std::size_t>(g.first)].radius ==
+              g.scale * e.grains.shapes[0].pebbles[0].radius);
 }

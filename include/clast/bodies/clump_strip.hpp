@@ -31,6 +31,7 @@ struct clump_strip {
     row inverse_mass, ix, iy, iz;                    ///< 1/kg, and 1/(kg m^2) in the body's axes
     row cx, cy, cz, tw, tx, ty, tz;                  ///< centre (m) and orientation from which displacements count
     row reach;                                       ///< radius of the circumscribed sphere (m)
+    row scale;                                       ///< size over that of the shape
     row damped;                                      ///< energy lost to damping (J)
     row angle2;                                      ///< upper bound of the squared angle of the step (rad^2)
     row r00, r01, r02, r10, r11, r12, r20, r21, r22; ///< matrix of the new orientation

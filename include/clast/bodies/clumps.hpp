@@ -27,6 +27,7 @@ struct grain {
     std::int32_t shape = 0;          ///< index into the shapes
     std::int32_t cluster = is_whole; ///< number in the cluster pool of its shape once it is a cluster
     std::int32_t id = 0;             ///< its number for life; its place in the table grows as others are split
+    double scale = 1.0;              ///< its size over that of its shape
 
     static constexpr std::int32_t is_whole = -1; ///< a clump
     static constexpr std::int32_t is_loose = -2; ///< balls that no bond joins
@@ -61,8 +62,8 @@ struct clumps {
     std::vector<clump_rotation> turning; ///< per grain
     std::vector<body_losses> losses;     ///< per body
 
-    /// What all clumps of one shape have in common; made with the first grain of it, so shapes and density must not
-    /// change after that.
+    /// What clumps of one shape have in common, at scale 1; made with the first grain of it, so shapes and density must
+    /// not change after that.
     struct constants {
         vec3 inverse_inertia; ///< 1/(kg m^2), body axes
         double inverse_mass;  ///< 1/kg
@@ -79,11 +80,18 @@ struct clumps {
     bool is_clump(std::size_t g) const { return grains[g].cluster == grain::is_whole; }
     /// Number of the body that a pebble is when it moves on its own.
     std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
-    double mass_of(const grain& g) const { return of_shape[static_cast<std::size_t>(g.shape)].mass; }
+    double mass_of(const grain& g) const {
+        return of_shape[static_cast<std::size_t>(g.shape)].mass * (g.scale * g.scale * g.scale);
+    }
+    double diameter_of(const grain& g) const {
+        return shape_of(g).diameter * g.scale;
+    } ///< of its circumscribed sphere (m)
+    /// Of all its pebbles (m^3).
+    double volume_of(const grain& g) const { return shape_of(g).volume * (g.scale * g.scale * g.scale); }
     double ball_mass(std::size_t p) const { return density * sphere_volume(pebbles[p].radius); }
     double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(pebbles[p].radius); }
-    const vec3& inverse_inertia(const grain& g) const {
-        return of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
+    vec3 inverse_inertia(const grain& g) const { ///< 1/(kg m^2), body axes
+        return (1.0 / fifth_power(g.scale)) * of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
     }
     /// Total pebble volume (m^3): invariant under replacement.
     double solid_volume() const {
@@ -97,18 +105,18 @@ struct clumps {
         shapes.push_back(s);
         return static_cast<std::int32_t>(shapes.size() - 1);
     }
-    /// Adds a clump at rest and returns its grain id.
-    std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q) {
+    /// Adds a clump at rest, of `scale` times the size of its shape, and returns its grain id.
+    std::int32_t add(std::int32_t shape_index, const vec3& centre, const quaternion& q, double scale = 1.0) {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
         note_shapes();
-        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id});
+        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id, scale});
         for (const shape_pebble& p : s.pebbles) {
-            pebbles.push_back({centre + rotate(q, p.offset), p.radius});
+            pebbles.push_back({centre + rotate(q, scale * p.offset), scale * p.radius});
             mother.push_back(id);
             owner.push_back(id);
         }
-        motion.push_back({centre, {}, {}, of_shape[static_cast<std::size_t>(shape_index)].inverse_mass});
+        motion.push_back({centre, {}, {}, 1.0 / mass_of(grains.back())});
         turning.push_back({q, {}});
         losses.push_back({});
         return id;
@@ -122,17 +130,18 @@ struct clumps {
         const body_motion moved = motion[g];
         const clump_rotation turned = turning[g];
         const vec3 spin = spin_of(turned.q, turned.l, inverse_inertia(grains[g]));
-        divide(g, parts);
+        divide(g, parts, grains[g].scale);
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            const shape& form = shapes[static_cast<std::size_t>(parts[k].shape)];
-            const vec3 arm = rotate(turned.q, form.mass_centre);
-            motion[g + k] = {moved.x + arm, moved.v + cross(spin, arm), spin, 1.0 / (density * form.volume)};
-            const quaternion q = unit(turned.q * form.to_input_frame);
-            turning[g + k] = {q, rotate(q, scale(density * form.inertia_per_density, rotate_back(q, spin)))};
+            const grain& part = grains[g + k];
+            const vec3 arm = rotate(turned.q, part.scale * shape_of(part).mass_centre);
+            motion[g + k] = {moved.x + arm, moved.v + cross(spin, arm), spin, 1.0 / mass_of(part)};
+            const quaternion q = unit(turned.q * shape_of(part).to_input_frame);
+            turning[g + k] = {q, rotate(q, scale(inertia_of(part), rotate_back(q, spin)))};
         }
     }
     /// The balls of a grain become clumps, with their momentum and angular momentum; tables as for split(). The frame
-    /// of the shapes is that of the world, from the first pebble of each. Returns the kinetic energy that is lost (J).
+    /// of the shapes is that of the world, from the first pebble of each, at scale 1. Returns the kinetic energy that
+    /// is lost (J).
     double freeze(std::size_t g, std::span<const clump_part> parts) {
         std::vector<body_motion> moved;
         std::vector<clump_rotation> turned;
@@ -154,7 +163,7 @@ struct clumps {
             moved.push_back({centre, momentum / mass, spin_of(form.to_input_frame, angular, inverse), 1.0 / mass});
             lost -= 0.5 * norm2(momentum) / mass + rotational_energy(form.to_input_frame, angular, inverse);
         }
-        divide(g, parts);
+        divide(g, parts, 1.0);
         for (std::size_t k = 0; k < parts.size(); ++k) motion[g + k] = moved[k], turning[g + k] = turned[k];
         return lost;
     }
@@ -195,11 +204,10 @@ struct clumps {
     void set_velocity(std::size_t g, const vec3& v) { motion[g].v = v; }
     /// Sets the angular momentum with it.
     void set_spin(std::size_t g, const vec3& w) {
-        const vec3 i = density * shape_of(grains[g]).inertia_per_density;
         motion[g].w = w;
-        turning[g].l = rotate(turning[g].q, scale(i, rotate_back(turning[g].q, w)));
+        turning[g].l = rotate(turning[g].q, scale(inertia_of(grains[g]), rotate_back(turning[g].q, w)));
     }
-    double bounding_radius(std::size_t g) const { return shape_of(grains[g]).circumscribed_radius; }
+    double bounding_radius(std::size_t g) const { return shape_of(grains[g]).circumscribed_radius * grains[g].scale; }
     index_range pebbles_of(std::size_t g) const {
         const auto first = static_cast<std::size_t>(grains[g].first);
         return {first, first + shape_of(grains[g]).pebbles.size()};
@@ -207,8 +215,8 @@ struct clumps {
     double body_mass(std::size_t g) const { return mass_of(grains[g]); } ///< kg
     /// kg m^2; infinite about axes whose inverse is 0, about which a clump does not turn.
     vec3 body_inertia(std::size_t g) const {
-        vec3 i = density * shape_of(grains[g]).inertia_per_density;
-        const vec3& inverse = inverse_inertia(grains[g]);
+        vec3 i = inertia_of(grains[g]);
+        const vec3 inverse = inverse_inertia(grains[g]);
         for (int a = 0; a < 3; ++a)
             if (inverse[a] == 0.0) i[a] = std::numeric_limits<double>::infinity();
         return i;
@@ -279,7 +287,7 @@ struct clumps {
     void shift(std::size_t g, const vec3& by, const vec3& faster) { motion[g].x += by, motion[g].v += faster; }
     double smallest_mass() const {
         double least = std::numeric_limits<double>::infinity();
-        for (const shape& one : shapes) least = std::min(least, density * one.volume);
+        for (const grain& one : grains) least = std::min(least, mass_of(one));
         return least;
     }
 
@@ -288,8 +296,11 @@ struct clumps {
     }
 
   private:
-    /// Gives the pebbles of a grain to so many clumps in its place, whose motion is still to be set.
-    void divide(std::size_t g, std::span<const clump_part> parts) {
+    static double fifth_power(double a) { return a * a * (a * a) * a; }
+    /// Principal moments (kg m^2).
+    vec3 inertia_of(const grain& g) const { return (density * fifth_power(g.scale)) * shape_of(g).inertia_per_density; }
+    /// Gives the pebbles of a grain to so many clumps of one scale in its place, whose motion is still to be set.
+    void divide(std::size_t g, std::span<const clump_part> parts, double scale) {
         note_shapes();
         const std::size_t more = parts.size() - 1, before = grains.size();
         const grain whole = grains[g];
@@ -302,7 +313,7 @@ struct clumps {
         open(grains), open(motion), open(turning), open(losses);
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
-            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id};
+            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id, scale};
             const index_range own = pebbles_of(g + k);
             for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(g + k);
         }
@@ -314,7 +325,7 @@ struct clumps {
             of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
         }
     }
-    /// Where the pebbles of a clump are: x = X + R o, by columns of R.
+    /// Where the pebbles of a clump are: x = X + (scale R) o, by columns of scale R.
     template <std::size_t N> class placement {
       public:
         [[gnu::always_inline]] placement(const body_motion& m, const double (&axes)[3][4], const shape& s,
@@ -333,7 +344,7 @@ struct clumps {
         quad<N> x_, axes_[3];
     };
     placement<own_width::value> placement_of(std::size_t g) const {
-        const mat3 m = matrix(turning[g].q);
+        const mat3 m = grains[g].scale * matrix(turning[g].q);
         const double axes[3][4] = {
             {m(0, 0), m(1, 0), m(2, 0)}, {m(0, 1), m(1, 1), m(2, 1)}, {m(0, 2), m(1, 2), m(2, 2)}};
         return {motion[g], axes, shape_of(grains[g]), grains[g].first};
@@ -352,9 +363,11 @@ struct clumps {
                 const moving_body& one = bodies[std::min(k + l, s.size - 1)];
                 const std::size_t g = one.body;
                 const constants& c = of_shape[static_cast<std::size_t>(grains[g].shape)];
+                const double scale = grains[g].scale;
                 load[l] = bytes_of(one.load), move[l] = bytes_of(motion[g]), turn[l] = bytes_of(turning[g]);
                 then[l] = bytes_of(since[g]), common[l] = bytes_of(c);
-                reach[l] = c.reach;
+                reach[l] = c.reach * scale;
+                s.scale[k + l] = scale;
             }
             row r[4];
             const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,
@@ -365,18 +378,22 @@ struct clumps {
             each(load, 0, s.fx + k, s.fy + k, s.fz + k);
             each(load, block, s.mx + k, s.my + k, s.mz + k);
             each(move, 0, s.x + k, s.y + k, s.z + k);
-            each(move, block, s.vx + k, s.vy + k, s.vz + k);
+            each(move, block, s.vx + k, s.vy + k, s.vz + k), row::fourth_column(r, s.inverse_mass + k);
             each(move, 2 * block, s.wx + k, s.wy + k, s.wz + k);
             each(turn, 0, s.qw + k, s.qx + k, s.qy + k), row::fourth_column(r, s.qz + k);
             each(turn, block, s.lx + k, s.ly + k, s.lz + k);
             each(then, 0, s.tw + k, s.tx + k, s.ty + k), row::fourth_column(r, s.tz + k);
             each(then, block, s.cx + k, s.cy + k, s.cz + k);
-            each(common, 0, s.ix + k, s.iy + k, s.iz + k), row::fourth_column(r, s.inverse_mass + k);
+            each(common, 0, s.ix + k, s.iy + k, s.iz + k);
             row(reach[0], reach[1], reach[2], reach[3]).store(s.reach + k);
+            for (std::size_t l = k; l < k + 4; ++l) {
+                const double per_inertia = 1.0 / fifth_power(s.scale[l]);
+                s.ix[l] *= per_inertia, s.iy[l] *= per_inertia, s.iz[l] *= per_inertia;
+            }
             for (std::size_t l = k; l < k + 4; ++l) s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
         }
     }
-    /// Columns of the matrices of four orientations, with a spare number each.
+    /// Columns of the matrices of four orientations, times the scales, with a spare number each.
     using axes_of_four = double[4][3][4];
     /// Takes the new state of up to four bodies from place k of a strip on.
     template <std::size_t N, std::size_t Loop>
@@ -400,7 +417,7 @@ struct clumps {
             __attribute__((always_inline)) {
             quad<N> record[4];
             quad<N>::records(x, y, z, nothing, record);
-            for (std::size_t l = 0; l < 4; ++l) record[l].store(axes[l][c]);
+            for (std::size_t l = 0; l < 4; ++l) (s.scale[k + l] * record[l]).store(axes[l][c]);
         };
         column(0, s.r00 + k, s.r10 + k, s.r20 + k);
         column(1, s.r01 + k, s.r11 + k, s.r21 + k);

@@ -54,7 +54,9 @@ struct spheres {
         return s.pebbles.front().radius;
     }
     /// As for clumps, where a radius is the kind; a sphere has no orientation to keep.
-    std::int32_t add(double radius, const vec3& centre, const quaternion&) { return add(centre, radius); }
+    std::int32_t add(double radius, const vec3& centre, const quaternion&, double scale = 1.0) {
+        return add(centre, scale * radius);
+    }
     std::size_t pebble_count() const { return pebbles.size(); }
     std::size_t grain_count() const { return pebbles.size(); }
     static constexpr std::int32_t number_of(std::size_t g) { return static_cast<std::int32_t>(g); }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -44,14 +45,21 @@ inline bool told_before(const break_report& a, const break_report& b) {
     return key(a) < key(b);
 }
 
-/// Clusters of one shape. Eight clusters sit side by side in the lanes of a batch, so that one loop over the lanes does
-/// the same bond of eight clusters: the compiler makes vectors of it, whatever the instruction set. No lane reads
-/// another, so a cluster gives the same bits wherever it sits, and may change its seat: pack() puts clusters that have
-/// about the same bonds left together, for a bond that is broken in all lanes costs nothing.
+/// Clusters of one shape, each of a size of its own. Eight clusters sit side by side in the lanes of a batch, so that
+/// one loop over the lanes does the same bond of eight clusters: the compiler makes vectors of it, whatever the
+/// instruction set. No lane reads another, so a cluster gives the same bits wherever it sits, and may change its seat:
+/// pack() puts clusters that have about the same bonds left together, for a bond that is broken in all lanes costs
+/// nothing.
 ///
-/// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with
-/// `substeps(dt)` leapfrog steps, small enough for the stiffest mode of the intact shape (removing bonds only lowers
-/// it).
+/// A cluster of `scale` times the size of the shape is computed as one of the shape's own size that is similar to it:
+/// with lengths over scale, forces over scale^4, moments and energies over scale^5, masses and times as they are, it
+/// obeys the same equations, but for stiffnesses (the factor is `alive` in a lane) and strengths. So sizes cost nothing
+/// in the loops.
+///
+/// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with leapfrog
+/// steps small enough for the stiffest mode of the intact shape at its scale (removing bonds only lowers it).
+/// Frequencies are rounded up to a quarter of an octave above that of scale 1, and a batch takes clusters of one such
+/// class.
 class cluster_pool {
   public:
     static constexpr std::size_t lanes = clast::lanes;
@@ -67,27 +75,26 @@ class cluster_pool {
     /// The cluster in a lane of a batch; -1 if it has no intact bond, or nobody sits there.
     std::int32_t living(std::size_t batch, std::size_t lane) const {
         const std::size_t seat = batch * lanes + lane;
-        return seat < size_ && intact_[seat] > 0 ? sitting_[seat] : -1;
+        return seat < sitting_.size() && intact_[seat] > 0 ? sitting_[seat] : -1;
     }
     std::size_t bonds() const { return shape_.ends.size(); }
 
-    /// Adds a cluster with the given bond states and the strength of its bonds over the material's; returns its number.
-    std::size_t add(const std::vector<state>& born, double strength = 1.0) {
-        if (size_ % lanes == 0) {
-            values_.resize(values_.size() + bonds() * fields * lanes, 0.0);
-            intact_.resize(intact_.size() + lanes, 0);
-            strength_.resize(strength_.size() + lanes, 1.0);
-        }
-        const std::size_t c = size_++; // behind all others
-        seat_.push_back(static_cast<std::int32_t>(c));
+    /// Adds a cluster with the given bond states, the strength of its bonds over the material's, and its size over that
+    /// of the shape (both > 0); returns its number.
+    std::size_t add(const std::vector<state>& born, double strength = 1.0, double scale = 1.0) {
+        const std::size_t c = size_++, seat = sitting_.size(); // behind all others
+        seat_.push_back(static_cast<std::int32_t>(seat));
         sitting_.push_back(static_cast<std::int32_t>(c));
-        occupied_ = size_;
-        strength_[c] = strength;
+        make_room();
+        occupied_ = sitting_.size();
+        scale_[seat] = scale;
+        strength_[seat] = strength / (scale * scale);
+        const double stiffness = stiffness_at(scale);
         for (std::size_t b = 0; b < bonds(); ++b) {
-            put(c, b, born[b]);
-            value(c, b, alive) = 1.0;
+            put(seat, b, scaled(born[b], 1.0 / scale));
+            value(seat, b, alive) = stiffness;
         }
-        intact_[c] = static_cast<std::int32_t>(bonds());
+        intact_[seat] = static_cast<std::int32_t>(bonds());
         return c;
     }
 
@@ -98,40 +105,60 @@ class cluster_pool {
         intact_[seat] = 0;
     }
 
-    /// Gives clusters new seats if bonds broke or clusters came since the last time: those with many bonds first, of
-    /// equally many those with the same bonds side by side, those without any behind all batches.
+    /// Gives clusters new seats if bonds broke or clusters came since the last time: those of one class of frequencies
+    /// in batches of their own, with many bonds first, of equally many those with the same bonds side by side; those
+    /// without any behind all batches.
     void pack() {
         const std::int64_t left = std::accumulate(intact_.begin(), intact_.end(), std::int64_t{0});
         if (std::exchange(packed_clusters_, size_) == size_ && packed_bonds_ == left) return;
         packed_bonds_ = left;
-        std::vector<std::int32_t> order = sitting_;
+        std::vector<std::int32_t> order(size_);
+        std::iota(order.begin(), order.end(), 0);
+        std::vector<int> rank(size_); // of classes; those without bonds come last
+        for (std::size_t c = 0; c < size_; ++c)
+            rank[c] = intact_[seat_of(c)] == 0 ? std::numeric_limits<int>::max() : class_of(scale_[seat_of(c)]);
+        const auto rank_of = [&rank](std::int32_t c) { return rank[static_cast<std::size_t>(c)]; };
         std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
             const std::size_t i = seat_of(a), j = seat_of(b);
+            if (rank_of(a) != rank_of(b)) return rank_of(a) < rank_of(b);
             if (intact_[i] != intact_[j]) return intact_[i] > intact_[j];
             for (std::size_t bond = 0; intact_[i] > 0 && bond < bonds(); ++bond)
-                if (value(i, bond, alive) != value(j, bond, alive)) return value(i, bond, alive) != 0.0;
+                if (is_alive(i, bond) != is_alive(j, bond)) return is_alive(i, bond);
             return a < b;
         });
-        seat(order);
-        occupied_ = size_ - static_cast<std::size_t>(
-                                std::count(intact_.begin(), intact_.begin() + static_cast<std::ptrdiff_t>(size_), 0));
+        std::vector<std::int32_t> seats;
+        occupied_ = 0;
+        for (std::size_t k = 0; k < size_; ++k) {
+            if (k > 0 && rank_of(order[k]) != rank_of(order[k - 1])) seats.resize(whole_lanes(seats.size()), nobody);
+            seats.push_back(order[k]);
+            if (intact_[seat_of(order[k])] > 0) occupied_ = seats.size();
+        }
+        seat(seats);
     }
 
-    bool is_intact(std::size_t cluster, std::size_t bond) const { return value(seat_of(cluster), bond, alive) != 0.0; }
+    bool is_intact(std::size_t cluster, std::size_t bond) const { return is_alive(seat_of(cluster), bond); }
     std::int32_t intact_bonds(std::size_t cluster) const { return intact_[seat_of(cluster)]; }
-    state get(std::size_t cluster, std::size_t bond) const { return carried(seat_of(cluster), bond); }
+    double scale(std::size_t cluster) const { return scale_[seat_of(cluster)]; }
+    state get(std::size_t cluster, std::size_t bond) const {
+        return scaled(carried(seat_of(cluster), bond), scale(cluster));
+    }
     /// Elastic energy in the bonds of a cluster (J).
     double energy(std::size_t cluster) const {
         double e = 0.0;
         for (std::size_t b = 0; b < bonds(); ++b)
-            if (is_intact(cluster, b)) e += bonds::energy(shape_.bond[b], get(cluster, b));
-        return e;
+            if (is_intact(cluster, b)) e += bonds::energy(shape_.bond[b], carried(seat_of(cluster), b));
+        return fifth_power(scale(cluster)) / stiffness_at(scale(cluster)) * e;
+    }
+    /// Elastic energy (J) of one bond of a cluster in a state.
+    double energy_of(std::size_t cluster, std::size_t bond, const state& s) const {
+        const double k = scale(cluster);
+        return fifth_power(k) / stiffness_at(k) * bonds::energy(shape_.bond[bond], scaled(s, 1.0 / k));
     }
 
-    /// Number of inner steps for an outer step: the highest mode turns by at most 1 rad per inner step. Local damping
-    /// a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at a = 0.7; the rest is
-    /// margin.
-    int substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt * shape_.highest_frequency))); }
+    /// Number of inner steps for an outer step (s) of a cluster of a scale: its highest mode turns by at most 1 rad per
+    /// inner step. Local damping a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at
+    /// a = 0.7; the rest is margin.
+    int substeps(double dt, double scale = 1.0) const { return substeps_of(dt, class_of(scale)); }
 
     /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes,
     /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved. Normals are those of the middle
@@ -165,14 +192,16 @@ class cluster_pool {
         };
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
+            const double per_length = 1.0 / scale_[batch * lanes + l];
+            const double per_force = per_length * per_length * per_length * per_length;
             for (std::size_t i = 0; i < n; ++i) {
                 const ball_motion& ball = balls[l * n + i];
                 const pebble_load& external = load[l * n + i];
                 for (int a = 0; a < 3; ++a) {
                     const std::size_t k = at(i, static_cast<std::size_t>(a), l);
-                    v[k] = ball.velocity[a], w[k] = ball.spin[a];
-                    fe[k] = external.force[a], te[k] = external.moment[a];
-                    u[k] = ball.position[a];
+                    v[k] = per_length * ball.velocity[a], w[k] = ball.spin[a];
+                    fe[k] = per_force * external.force[a], te[k] = per_force * per_length * external.moment[a];
+                    u[k] = ball.position[a]; // for directions only
                 }
             }
         }
@@ -183,7 +212,7 @@ class cluster_pool {
         with_widest_registers([ =, this, &left ](auto width) __attribute__((always_inline)) {
             turn_along<lanes_of<decltype(width)>>(batch, left, dt, w, u, axis);
         });
-        const int steps = substeps(dt);
+        const int steps = substeps_of(dt, class_of_batch(batch));
         const double h = dt / steps;
         // half a drift at either end, so that a step of one sub-step is of second order, too
         for (std::size_t k = 0; k < vectors; ++k) u[k] = 0.5 * h * v[k];
@@ -203,12 +232,14 @@ class cluster_pool {
         for (std::size_t k = 0; k < vectors; ++k) u[k] -= 0.5 * h * v[k];
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
+            const double length = scale_[batch * lanes + l];
+            dissipated[l] *= fifth_power(length);
             for (std::size_t i = 0; i < n; ++i)
                 for (int a = 0; a < 3; ++a) {
                     const std::size_t k = at(i, static_cast<std::size_t>(a), l);
-                    balls[l * n + i].velocity[a] = v[k];
+                    balls[l * n + i].velocity[a] = length * v[k];
                     balls[l * n + i].spin[a] = w[k];
-                    displacement[l * n + i][a] = u[k];
+                    displacement[l * n + i][a] = length * u[k];
                 }
         }
         return dissipated;
@@ -219,7 +250,7 @@ class cluster_pool {
         std::vector<std::int32_t> numbers(size_);
         std::iota(numbers.begin(), numbers.end(), 0);
         seat(numbers);
-        a(size_, values_, intact_, strength_);
+        a(size_, values_, intact_, strength_, scale_);
         seat_.resize(size_);
         std::iota(seat_.begin(), seat_.end(), 0);
         sitting_ = seat_;
@@ -228,8 +259,43 @@ class cluster_pool {
     }
 
   private:
+    /// alive: factor of stiffnesses, 0 where the bond is broken.
     enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
+    static constexpr std::int32_t nobody = -1;
 
+    static double fifth_power(double a) { return a * a * (a * a) * a; }
+    /// A state in a cluster that is `by` times as large and similar.
+    static state scaled(const state& s, double by) {
+        const double force = by * by * (by * by), moment = force * by;
+        return {force * s.n, force * s.v, moment * s.mt, moment * s.mb};
+    }
+    /// Stiffness of the bonds of a similar cluster of the shape's own size, over that of the shape: what is k in a
+    /// cluster of a scale is k / scale^3 there, and k grows by a power of the scale.
+    double stiffness_at(double scale) const {
+        double k = 1.0 / (scale * scale * scale);
+        for (int p = 0; p < shape_.stiffness_power; ++p) k *= scale;
+        return k;
+    }
+    /// Class of frequencies: quarters of an octave above that of scale 1, rounded up.
+    int class_of(double scale) const { return static_cast<int>(std::ceil(2.0 * std::log2(stiffness_at(scale)))); }
+    int class_of_batch(std::size_t batch) const {
+        int most = std::numeric_limits<int>::min();
+        for (std::size_t l = 0; l < lanes; ++l)
+            if (living(batch, l) >= 0) most = std::max(most, class_of(scale_[batch * lanes + l]));
+        return most;
+    }
+    int substeps_of(double dt, int of_class) const {
+        const double highest = shape_.highest_frequency * std::exp2(0.25 * of_class);
+        return std::max(1, static_cast<int>(std::ceil(dt * highest)));
+    }
+    /// Whole batches for all seats.
+    void make_room() {
+        const std::size_t seats = whole_lanes(sitting_.size());
+        values_.resize(seats * bonds() * fields, 0.0);
+        intact_.resize(seats, 0);
+        strength_.resize(seats, 1.0);
+        scale_.resize(seats, 1.0);
+    }
     std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
     std::size_t place(std::size_t seat, std::size_t b, std::size_t f) const {
         return base(seat / lanes, b) + f * lanes + seat % lanes;
@@ -238,24 +304,30 @@ class cluster_pool {
     double value(std::size_t seat, std::size_t b, std::size_t f) const { return values_[place(seat, b, f)]; }
     std::size_t seat_of(std::size_t cluster) const { return static_cast<std::size_t>(seat_[cluster]); }
     std::size_t seat_of(std::int32_t cluster) const { return seat_of(static_cast<std::size_t>(cluster)); }
-    /// Clusters take seats 0, 1, ... in this order.
+    bool is_alive(std::size_t seat, std::size_t bond) const { return value(seat, bond, alive) != 0.0; }
+    /// Clusters take seats 0, 1, ... in this order; those of nobody stay empty.
     void seat(const std::vector<std::int32_t>& order) {
         if (order == sitting_) return;
-        const std::vector<double> values = values_, strength = strength_;
-        const std::vector<std::int32_t> intact = intact_;
-        for (std::size_t to = 0; to < size_; ++to) {
-            const std::size_t from = seat_of(order[to]);
+        const auto values = std::exchange(values_, {}), strength = std::exchange(strength_, {}),
+                   scales = std::exchange(scale_, {});
+        const auto intact = std::exchange(intact_, {});
+        const auto seats = seat_;
+        sitting_ = order;
+        make_room();
+        for (std::size_t to = 0; to < order.size(); ++to) {
+            if (order[to] == nobody) continue;
+            const auto from = static_cast<std::size_t>(seats[static_cast<std::size_t>(order[to])]);
             intact_[to] = intact[from];
             strength_[to] = strength[from];
+            scale_[to] = scales[from];
             for (std::size_t b = 0; b < bonds(); ++b)
                 for (std::size_t f = 0; f < fields; ++f) value(to, b, f) = values[place(from, b, f)];
+            seat_[static_cast<std::size_t>(order[to])] = static_cast<std::int32_t>(to);
         }
-        sitting_ = order;
-        for (std::size_t k = 0; k < size_; ++k)
-            seat_[static_cast<std::size_t>(sitting_[k])] = static_cast<std::int32_t>(k);
     }
     std::size_t end_a(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].a); }
     std::size_t end_b(std::size_t b) const { return static_cast<std::size_t>(shape_.ends[b].b); }
+    /// Of the similar cluster of the shape's own size, as put() takes it.
     state carried(std::size_t seat, std::size_t b) const {
         return {value(seat, b, normal_force),
                 {value(seat, b, shear), value(seat, b, shear + 1), value(seat, b, shear + 2)},
@@ -364,7 +436,7 @@ class cluster_pool {
         for (std::size_t b = 0; b < bonds(); ++b)
             for (std::size_t l = 0; l < lanes; ++l) {
                 const std::size_t c = batch * lanes + l; // its seat
-                if (c >= size_ || value(c, b, alive) == 0.0) continue;
+                if (c >= sitting_.size() || !is_alive(c, b)) continue;
                 const state s = carried(c, b);
                 const failure_flags fails = failing(shape_.bond[b], s, strength_[c]);
                 if (!fails.tension && !fails.shear) continue;
@@ -379,7 +451,7 @@ class cluster_pool {
                     t[end_b(b) * 3 * lanes + k] -= wr.moment_b[a];
                 }
                 broken.push_back({sitting_[c], static_cast<std::int32_t>(b),
-                                  fails.tension ? break_mode::tension : break_mode::shear, s, step});
+                                  fails.tension ? break_mode::tension : break_mode::shear, scaled(s, scale_[c]), step});
                 put(c, b, {});
                 value(c, b, alive) = 0.0;
                 --intact_[c];
@@ -391,7 +463,8 @@ class cluster_pool {
     std::size_t size_ = 0;
     std::vector<double> values_;        ///< [batch][bond][field][lane]
     std::vector<std::int32_t> intact_;  ///< per seat
-    std::vector<double> strength_;      ///< per seat, over that of the material
+    std::vector<double> strength_;      ///< per seat, over that of the material, in the similar cluster
+    std::vector<double> scale_;         ///< per seat: size over that of the shape
     std::vector<std::int32_t> seat_;    ///< per cluster: lane seat % 8 of batch seat / 8
     std::vector<std::int32_t> sitting_; ///< per seat: who sits there
     std::size_t occupied_ = 0;          ///< clusters behind have no bonds

@@ -24,7 +24,8 @@ struct bond_arms {
     double b;
 };
 
-/// A shape held together by parallel bonds, in its body frame. Made once per shape and material; grains share it.
+/// A shape held together by parallel bonds, in its body frame, at scale 1. Made once per shape and material; grains of
+/// every size share it.
 struct lattice {
     std::vector<constants> bond;  ///< per bond of the shape
     std::vector<shape_bond> ends; ///< pebble indices
@@ -37,12 +38,14 @@ struct lattice {
     std::vector<vec3> offset;     ///< per pebble, body frame (m)
     square_matrix pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
     double highest_frequency = 0.0; ///< largest eigenfrequency with all bonds intact (rad/s)
+    int stiffness_power = 0;        ///< of the scale, by which stiffnesses of bonds grow (stiffness_reading)
 
     lattice() = default;
     /// density (kg/m^3) > 0. Throws input_error if bonds join some pebbles but leave others apart: no force could hold
     /// them.
     lattice(const shape& s, const parallel& material, double density) {
         const std::size_t n = s.pebbles.size();
+        stiffness_power = bonds::stiffness_power(material.reading);
         for (const shape_pebble& p : s.pebbles) {
             offset.push_back(p.offset);
             radius.push_back(p.radius);
@@ -115,8 +118,12 @@ struct lattice {
 
     /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes)
     /// while it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with
-    /// minimum norm. `spin` is the angular velocity (rad/s).
-    std::vector<state> statics(const std::vector<pebble_load>& load, const quaternion& q, const vec3& spin) const {
+    /// minimum norm. `spin` is the angular velocity (rad/s); scale: size of the cluster over that of the shape.
+    std::vector<state> statics(std::vector<pebble_load> load, const quaternion& q, vec3 spin,
+                               double scale = 1.0) const {
+        // a cluster of the shape's own size under these moments is similar: all forces and masses' accelerations agree
+        for (pebble_load& one : load) one.moment = (1.0 / scale) * one.moment;
+        spin = (scale * scale) * spin;
         const std::size_t n = size();
         // rigid motion under the loads
         vec3 force, moment;
@@ -157,7 +164,7 @@ struct lattice {
             stretch(bond[e], s, normal[e],
                     relative_velocity(normal[e], arm[e].a, arm[e].b, part(i, 0), part(i, 3), part(j, 0), part(j, 3)),
                     part(j, 3) - part(i, 3), 1.0);
-            born[e] = {s.n, rotate(q, s.v), s.mt, rotate(q, s.mb)};
+            born[e] = {s.n, rotate(q, s.v), scale * s.mt, scale * rotate(q, s.mb)};
         }
         return born;
     }

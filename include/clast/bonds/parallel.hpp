@@ -35,6 +35,11 @@ struct parallel {
     double moment_contribution = 1.0; ///< beta in [0, 1]: share of bending and twist in the peripheral stresses
 };
 
+/// Power of the size of a grain by which the force stiffness of its bonds grows, of a material with a reading.
+constexpr int stiffness_power(stiffness_reading reading) {
+    return reading == stiffness_reading::force ? 0 : reading == stiffness_reading::per_area ? 2 : 1;
+}
+
 /// What one bond of a given pair of balls needs in a loop: force stiffnesses and the coefficients of its stresses.
 struct constants {
     double kn;          ///< normal (N/m)

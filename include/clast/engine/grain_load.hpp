@@ -91,15 +91,14 @@ template <class S> criteria::grain_load load_of(const S& s, std::size_t g, std::
         return criteria::contains(asked, what);
     };
     const grain& one = s.grains.grains[g];
-    const shape& own = s.grains.shape_of(one);
     criteria::grain_load load;
-    load.diameter = own.diameter;
-    load.volume = own.volume;
+    load.diameter = s.grains.diameter_of(one);
+    load.volume = s.grains.volume_of(one);
     load.grain = one.id;
     const bool wants_stress = wants(needs::stress);
     const auto around = neighbours_of(s, g, [&](const acting_force& f) {
         // force into the grain at the arm x - X: f (x) arm is negative in compression
-        if (wants_stress) load.stress += (-1.0 / own.volume) * outer(f.force, f.point - s.grains.motion[g].x);
+        if (wants_stress) load.stress += (-1.0 / load.volume) * outer(f.force, f.point - s.grains.motion[g].x);
     });
     const neighbour_load* most = nullptr;
     for (const neighbour_load& n : around)

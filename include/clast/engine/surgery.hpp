@@ -144,7 +144,7 @@ template <class S> void surgery<S>::bond(std::int32_t number, const std::vector<
         b.bonded[p] = 1;
         b.fragment[p] = one.first; // a shape with bonds is one piece
     }
-    one.cluster = static_cast<std::int32_t>(pool.add(born, strength));
+    one.cluster = static_cast<std::int32_t>(pool.add(born, strength, one.scale));
     b.members[s_.at(one.shape)].push_back(number);
     s_.totals.bond_dissipation -= pool.energy(s_.at(one.cluster)); // born with energy that no one paid for
 }
@@ -330,7 +330,7 @@ template <class S> void part(S& s, std::size_t which, const bonds::break_report&
     e.shear_force = norm(r.before.v);
     e.bending_moment = norm(r.before.mb);
     e.twisting_moment = std::abs(r.before.mt);
-    e.energy = bonds::energy(pool.shape().bond[s.at(r.bond)], r.before);
+    e.energy = pool.energy_of(s.at(r.cluster), s.at(r.bond), r.before);
     s.broken.events.push_back(e);
     s.totals.bond_dissipation += e.energy;
     ++(r.mode == break_mode::tension ? s.totals.broken_tension : s.totals.broken_shear);
