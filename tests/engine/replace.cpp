@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -92,4 +93,30 @@ TEST_CASE("what is wanted, and who is asked about again, follows grains that mov
     CHECK(next(e).empty());
     CHECK(next(e) == entries{{'g', 6}, {'g', 3}, {'g', 0}});
     CHECK(next(e).size() == 9); // parts are looked at like any other clump
+}
+
+TEST_CASE("grains whose pebbles overlap move like others, but not where they may be replaced") {
+    const shape lump = scaled_to(make_shape("lump", {{{0, 0, 0}, 1.0}, {{1, 0, 0}, 0.8}}, overlaps::as_union), 0.02);
+    using rigid = scenes::unbreakable<>;
+    auto s = scenes::settings<rigid>();
+    s.scheme.damping = 0.0;
+    s.safety = 0.1;
+    engine<rigid> e = scenes::collision(s, lump);
+    const double before = e.kinetic_energy();
+    const vec3 p = scenes::momentum(e.grains);
+    CHECK(e.grains.body_mass(0) == Approx(e.grains.density * lump.volume));
+    e.step(4000);
+    CHECK(e.losses().friction > 0.0); // they met
+    CHECK(e.elastic_energy() == 0.0);
+    CHECK(norm(scenes::momentum(e.grains) - p) < 1e-12 * norm(p));
+    CHECK(e.kinetic_energy() + e.losses().friction == Approx(before).epsilon(1e-3));
+    std::string text;
+    try {
+        using breaking = scenes::breakable<>;
+        (void)scenes::collision(scenes::settings<breaking>(1e6), lump);
+    } catch (const input_error& error) {
+        text = error.what();
+    }
+    CHECK(text.find("shape 'lump'") == 0);
+    CHECK(text.find("replacements::none") != std::string::npos);
 }

@@ -6,7 +6,9 @@
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
+#include <clast/grains/mixture.hpp>
 #include <clast/io/archive.hpp>
+#include <clast/searches/cell_grid.hpp>
 
 #include <catch.hpp>
 
@@ -125,4 +127,67 @@ TEST_CASE("a cloud in a box fills its corners") {
         if (std::hypot(s.centre(b).x, s.centre(b).y) > 0.09) ++corner;
     }
     CHECK(corner > 20); // 0.21 of the section of centres
+}
+
+TEST_CASE("a cloud of several shapes and sizes: all of them, none in another's sphere, the largest not left over") {
+    const mixture of({{shapes::apollonian_14(0.02), 0.5}, {shapes::tetrahedron_4(0.02), 0.5}},
+                     grading({{0.006, 0.0}, {0.02, 0.5}, {0.03, 1.0}}));
+    const protocol::cylinder room{0.08, 0.0, 0.2};
+    const std::vector<mixture_grain> grains = of.grains_of(0.1 * 3.14159 * 0.08 * 0.08 * 0.2);
+    bodies::clumps s;
+    protocol::add(s, of, protocol::cloud_of(s, of, grains, room, 7));
+    REQUIRE(s.grain_count() == grains.size());
+    REQUIRE(grains.size() > 300);
+    CHECK(s.shapes.size() == 2);
+    double volume = 0.0;
+    for (const mixture_grain& g : grains) volume += of.volume(g);
+    CHECK(s.solid_volume() == Approx(volume).epsilon(1e-12));
+    std::vector<searches::sphere> spheres;
+    for (std::size_t g = 0; g < s.grain_count(); ++g) {
+        const double r = s.bounding_radius(g);
+        spheres.push_back({s.centre(g), r, 0});
+        CHECK(std::hypot(s.centre(g).x, s.centre(g).y) <= room.radius - r);
+        CHECK((s.centre(g).z >= r && s.centre(g).z <= 0.2 - r));
+    }
+    CHECK(searches::cell_grid{}.pairs(spheres, 0.0).empty());
+}
+
+TEST_CASE("a packing of one's own is looked at: inside, orientations, sizes, overlaps") {
+    const mixture of = shapes::tetrahedron_4(0.02);
+    const std::vector<placed_grain> good = {{{0, 1.0}, {0.0, 0.0, 0.011}, {}}, {{0, 1.2}, {0.0, 0.0, 0.04}, {}}};
+    const auto refusal = [&](auto&& change) -> std::string {
+        std::vector<placed_grain> grains = good;
+        change(grains);
+        try {
+            (void)protocol::pebbles_of(of, grains);
+        } catch (const input_error& e) {
+            return e.what();
+        }
+        return {};
+    };
+    const auto names = [](const std::string& text, const char* where, const char* what) {
+        INFO(text);
+        CHECK(text.find(where) == 0);
+        CHECK(text.find(what) != std::string::npos);
+        CHECK(text.find("Allowed") != std::string::npos);
+    };
+    CHECK(refusal([](auto&) {}).empty());
+    names(refusal([](auto& g) { g.clear(); }), "packing", "no grains");
+    names(refusal([](auto& g) { g[1].part = 1; }), "packing, grain 2", "shape number 1");
+    names(refusal([](auto& g) { g[1].scale = 0.0; }), "packing, grain 2", "scale 0");
+    names(refusal([](auto& g) { g[0].centre.x = std::nan(""); }), "packing, grain 1", "a place, finite");
+    names(refusal([](auto& g) { g[1].q = {2, 0, 0, 0}; }), "packing, grain 2", "orientation 2 0 0 0");
+    names(refusal([](auto& g) { g[1].centre.z = 0.018; }), "packing, grain 1", "m inside grain 2");
+    // and inside: by nine tenths of a radius
+    const protocol::cylinder room{0.03, 0.0, 0.06};
+    CHECK(protocol::first_outside(room, protocol::pebbles_of(of, good)) == 8);
+    const auto first_out = [&](const vec3& by) {
+        std::vector<placed_grain> grains = good;
+        grains[1].centre += by;
+        return protocol::first_outside(room, protocol::pebbles_of(of, grains));
+    };
+    const double r = 1.2 * of.parts()[0].form.pebbles[0].radius, reach = 1.2 * of.parts()[0].form.pebbles[0].offset.z;
+    CHECK(first_out({0, 0, 0.02 - reach - 0.91 * r}) == 8);
+    CHECK(first_out({0, 0, 0.02 - reach - 0.89 * r}) < 8);
+    CHECK(first_out({0.025, 0, 0}) < 8);
 }

@@ -93,10 +93,10 @@ struct clumps {
     vec3 inverse_inertia(const grain& g) const { ///< 1/(kg m^2), body axes
         return (1.0 / fifth_power(g.scale)) * of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
     }
-    /// Total pebble volume (m^3): invariant under replacement.
+    /// Of all grains (m^3): invariant under replacement.
     double solid_volume() const {
         double v = 0.0;
-        for (const clump_pebble& p : pebbles) v += sphere_volume(p.radius);
+        for (const grain& g : grains) v += volume_of(g);
         return v;
     }
 

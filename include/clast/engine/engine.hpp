@@ -150,6 +150,7 @@ template <class P> class engine : private scene<P> {
     void begin() {
         scene_type& s = own();
         check(settings, grains.density);
+        if constexpr (scene_type::replaces) rooms::refuse_overlapping(grains);
         s.broken.begin(grains, settings);
         s.memory.resize(grains.body_count());
         s.replacing.begin(grains.grain_count());

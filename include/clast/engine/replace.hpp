@@ -10,12 +10,23 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
+#include <clast/core/errors.hpp>
 #include <clast/engine/grain_view.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/surgery.hpp>
 
 namespace clast::rooms {
 
+/// Throws input_error where pebbles of a grain overlap: as balls or in parts they would have another mass, and push.
+template <class Body> void refuse_overlapping(const Body& bodies) {
+    for (const shape& s : bodies.shapes)
+        if (s.overlapping)
+            throw input_error(fmt::format("shape '{}'", s.name), "pebbles that overlap",
+                              "pebbles that touch, where grains may be replaced",
+                              "Take replacements::none, or pebbles that touch.");
+}
 /// Whether clumps are looked at in this step.
 template <class S> bool looks_at_clumps(const S& s) {
     if constexpr (S::replaces && S::has_criterion)

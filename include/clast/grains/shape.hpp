@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +10,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,8 +17,10 @@
 #include <fmt/core.h>
 
 #include <clast/core/errors.hpp>
+#include <clast/core/number_lines.hpp>
 #include <clast/core/symmetric.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/grains/union_of_spheres.hpp>
 
 namespace clast {
 
@@ -38,23 +36,31 @@ struct shape_bond {
     std::int32_t b = 0; ///< index of the second pebble, a < b
 };
 
-/// The template that all grains of one kind share: a rigid clump of non-overlapping pebbles. Make it with `make_shape`
-/// or `shapes::...`, which keep the derived members consistent with the pebbles.
+/// What to make of pebbles that overlap: grains of such shapes never break.
+enum class overlaps : std::uint8_t {
+    refuse,   ///< an input_error
+    as_union, ///< a solid: what several pebbles cover counts once in volume, mass and inertia
+    as_sum    ///< every pebble counts in full, as if none overlapped
+};
+
+/// The template that all grains of one kind share: a rigid clump of pebbles. Make it with `make_shape` or
+/// `shapes::...`, which keep the derived members consistent with the pebbles.
 struct shape {
     std::string name;
     std::vector<shape_pebble> pebbles;
     std::vector<shape_bond> bonds;     ///< sorted by (a, b)
-    double volume = 0.0;               ///< sum of the pebble volumes (m^3)
+    double volume = 0.0;               ///< of the pebbles (m^3)
     double circumscribed_radius = 0.0; ///< smallest sphere around the mass centre that contains all pebbles (m)
     double diameter = 0.0;             ///< d = 2 * circumscribed_radius (m)
     vec3 inertia_per_density;          ///< principal moments of inertia over density (m^5); equal ones are bit-equal
     quaternion to_input_frame;         ///< turns principal axes into the axes in which the pebbles were given
     vec3 mass_centre;                  ///< mass centre in the frame in which the pebbles were given (m)
     double phi_nominal = 0.0;          ///< sphericity that the source of the shape states; 0 where there is none
+    bool overlapping = false;          ///< pebbles overlap: for grains that never break
 
     template <class A> void archive(A& a) {
         a(name, pebbles, bonds, volume, circumscribed_radius, diameter, inertia_per_density, to_input_frame,
-          mass_centre, phi_nominal);
+          mass_centre, phi_nominal, overlapping);
     }
 };
 
@@ -96,8 +102,9 @@ inline int pieces(const shape& s) {
     return count;
 }
 
-/// Wadell sphericity pi^(1/3) (6 V)^(2/3) / A with V and A summed over the pebbles: 1 for a ball, n^(-1/3) for n equal
-/// pebbles. The hull of the pebbles is rounder; published sphericities of clumps usually mean a smoothed surface.
+/// Wadell sphericity pi^(1/3) (6 V)^(2/3) / A with V and A summed over the pebbles, which must not overlap: 1 for a
+/// ball, n^(-1/3) for n equal pebbles. The hull of the pebbles is rounder; published sphericities of clumps usually
+/// mean a smoothed surface.
 inline double sphericity(const shape& s) {
     double area = 0.0;
     for (const shape_pebble& p : s.pebbles) area += 4.0 * std::numbers::pi * p.radius * p.radius;
@@ -159,28 +166,62 @@ inline void check_diameter(double diameter) {
                           "Give the diameter of the circumscribed sphere, e.g. 0.02 (20 mm).");
 }
 
-/// Moves the origin of pebbles to their mass centre and turns them to principal axes, with the exact mass properties.
-inline void complete(shape& s, std::vector<shape_pebble> pebbles) {
-    vec3 moment;
-    for (const shape_pebble& p : pebbles) {
-        s.volume += sphere_volume(p.radius);
-        moment += sphere_volume(p.radius) * p.offset;
+/// Volume (m^3), mass centre and, about that, inertia tensor over density (m^5) of the sum of pebbles, whose offsets
+/// become those from the mass centre; or of their union.
+struct solid {
+    double volume = 0.0;
+    vec3 centre;
+    mat3 tensor;
+};
+inline solid solid_of(std::vector<shape_pebble>& pebbles, bool as_union) {
+    solid s;
+    if (as_union) {
+        std::vector<union_sphere> spheres;
+        for (const shape_pebble& p : pebbles) spheres.push_back({p.offset, p.radius});
+        const solid_moments m = moments_of_union(spheres);
+        s.volume = m.volume;
+        s.centre = m.first / m.volume;
+        const mat3 second = m.second + (-m.volume) * outer(s.centre, s.centre);
+        s.tensor = trace(second) * mat3::identity() + (-1.0) * second;
+    } else {
+        vec3 moment;
+        for (const shape_pebble& p : pebbles) {
+            s.volume += sphere_volume(p.radius);
+            moment += sphere_volume(p.radius) * p.offset;
+        }
+        s.centre = moment / s.volume;
     }
-    s.mass_centre = moment / s.volume;
-    for (shape_pebble& p : pebbles) p.offset -= s.mass_centre;
+    for (shape_pebble& p : pebbles) p.offset -= s.centre;
+    if (!as_union) s.tensor = inertia_tensor_per_density(pebbles);
+    return s;
+}
 
-    const principal_frame frame = principal_axes(inertia_tensor_per_density(pebbles));
+/// Moves the origin of pebbles to their mass centre and turns them to principal axes, with the exact mass properties.
+inline void complete(shape& s, std::vector<shape_pebble> pebbles, bool as_union = false) {
+    const solid whole = solid_of(pebbles, as_union);
+    s.volume = whole.volume;
+    s.mass_centre = whole.centre;
+    const principal_frame frame = principal_axes(whole.tensor);
     s.to_input_frame = frame.to_input;
     for (shape_pebble& p : pebbles) {
         if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
         s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
     }
     s.diameter = 2.0 * s.circumscribed_radius;
-    const mat3 tensor = inertia_tensor_per_density(pebbles);
-    s.inertia_per_density = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
-    // bit-equal moments let the integrator see an isotropic body without a tolerance
     vec3& inertia = s.inertia_per_density;
-    if (frame.equal == 3) inertia.x = inertia.y = inertia.z = trace(tensor) / 3.0;
+    if (as_union) {
+        for (int a = 0; a < 3; ++a) {
+            vec3 axis;
+            axis[a] = 1.0;
+            axis = rotate(frame.to_input, axis);
+            inertia[a] = dot(axis, whole.tensor * axis);
+        }
+    } else {
+        const mat3 tensor = inertia_tensor_per_density(pebbles);
+        inertia = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
+    }
+    // bit-equal moments let the integrator see an isotropic body without a tolerance
+    if (frame.equal == 3) inertia.x = inertia.y = inertia.z = (inertia.x + inertia.y + inertia.z) / 3.0;
     if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
     s.pebbles = std::move(pebbles);
 }
@@ -190,8 +231,9 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles) {
 /// Shape from pebbles in any frame (m): moves the origin to the mass centre, turns to principal axes (ascending
 /// moments; a body of revolution has its axis first; an isotropic one keeps the given axes), finds the bonds (|gap| <
 /// 1e-3 of the smallest radius) and the exact mass properties. Throws input_error if a radius is not positive, a number
-/// is not finite, or two pebbles overlap by more than 1e-9 d. Pieces without a common bond are accepted: see `pieces`.
-inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
+/// is not finite, or two pebbles overlap by more than 1e-9 d and nothing was said about that (`overlaps`); a shape
+/// whose pebbles overlap has no bonds. Pieces without a common bond are accepted: see `pieces`.
+inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles, overlaps how = overlaps::refuse) {
     const std::string option = fmt::format("shape '{}'", name);
     if (pebbles.empty())
         throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
@@ -206,6 +248,7 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
                               "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
         smallest = std::min(smallest, p.radius);
     }
+    const std::vector<shape_pebble> given = how == overlaps::as_union ? pebbles : std::vector<shape_pebble>{};
     detail::complete(s, std::move(pebbles));
     const std::vector<shape_pebble>& all = s.pebbles;
     for (std::size_t a = 0; a < all.size(); ++a)
@@ -213,14 +256,23 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
             const double touching = all[a].radius + all[b].radius;
             const double distance = norm(all[b].offset - all[a].offset);
             const double gap = distance - touching;
-            if (gap < -1e-9 * s.diameter)
+            if (gap < -1e-9 * s.diameter) s.overlapping = true;
+            if (s.overlapping && how == overlaps::refuse)
                 throw input_error(
                     option,
                     fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / s.diameter),
                     "pebbles that touch or are apart (tolerance 1e-9 of d = 2 R_circumscribed)",
-                    fmt::format("Move them apart, or multiply their radii by {:.12g}.", distance / touching));
+                    fmt::format("Move them apart, or multiply their radii by {:.12g}; grains that never break may have "
+                                "them (overlaps::as_union).",
+                                distance / touching));
             if (gap < 1e-3 * smallest) s.bonds.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
         }
+    if (!s.overlapping) return s;
+    s.bonds.clear();
+    if (how == overlaps::as_union) {
+        s.circumscribed_radius = 0.0;
+        detail::complete(s, given, true);
+    }
     return s;
 }
 
@@ -312,8 +364,9 @@ inline shape apollonian_14(double diameter) {
 
 /// Shape from a text file: one pebble per line, `x y z r` (m, any frame), blank lines and text after # are skipped. The
 /// name is the file name without directory and extension. Throws input_error with file and line for what is wrong, and
-/// if the pebbles overlap or do not hold together (their bonds must form one piece).
-inline shape from_file(const std::string& path) {
+/// if the pebbles overlap (unless `how` says what to make of that) or do not hold together (their bonds must form one
+/// piece).
+inline shape from_file(const std::string& path, overlaps how = overlaps::refuse) {
     const auto wrong = [&path](std::size_t line, const std::string& what) {
         return input_error(fmt::format("shape file {}:{}: {}. A line holds four numbers, x y z r (m), with r > 0; text "
                                        "after # is a comment.",
@@ -325,36 +378,13 @@ inline shape from_file(const std::string& path) {
                           "Check the name or path.");
     std::vector<shape_pebble> pebbles;
     std::vector<std::size_t> line_of;
-    std::string line;
-    for (std::size_t number = 1; std::getline(file, line); ++number) {
-        constexpr std::string_view blank = " \t\r\v\f";
-        std::string_view rest(line);
-        rest = rest.substr(0, rest.find('#'));
-        std::array<double, 4> value = {};
-        std::size_t count = 0;
-        while (true) {
-            const std::size_t begin = rest.find_first_not_of(blank);
-            if (begin == std::string_view::npos) break;
-            rest.remove_prefix(begin);
-            const std::string_view word = rest.substr(0, rest.find_first_of(blank));
-            rest.remove_prefix(word.size());
-            const char* first = word.data();
-            const char* last = word.data() + word.size();
-            if (word.size() > 1 && word[0] == '+') ++first; // from_chars knows no plus sign
-            double x = 0.0;
-            const auto [end, error] = std::from_chars(first, last, x);
-            if (error != std::errc{} || end != last || !std::isfinite(x))
-                throw wrong(number, fmt::format("'{}' is not a finite number", word));
-            if (count == 4) throw wrong(number, "more than four numbers");
-            value[count++] = x;
-        }
-        if (count == 0) continue;
-        if (count < 4) throw wrong(number, fmt::format("{} of four numbers", count));
-        if (!(value[3] > 0.0)) throw wrong(number, fmt::format("the radius {} is not positive", value[3]));
-        pebbles.push_back({{value[0], value[1], value[2]}, value[3]});
-        line_of.push_back(number);
+    for (const number_line& line : read_number_lines(file, 4, wrong)) {
+        const std::vector<double>& v = line.values;
+        if (!(v[3] > 0.0)) throw wrong(line.line, fmt::format("the radius {} is not positive", v[3]));
+        pebbles.push_back({{v[0], v[1], v[2]}, v[3]});
+        line_of.push_back(line.line);
     }
-    if (file.bad() || pebbles.empty()) throw wrong(1, file.bad() ? "the file cannot be read" : "there are no pebbles");
+    if (pebbles.empty()) throw wrong(1, "there are no pebbles");
 
     const std::size_t slash = path.find_last_of("/\\");
     std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -362,7 +392,7 @@ inline shape from_file(const std::string& path) {
 
     shape s;
     try {
-        s = make_shape(std::move(name), std::move(pebbles));
+        s = make_shape(std::move(name), std::move(pebbles), how);
     } catch (const input_error& error) {
         std::string lines; // pebble numbers in that message count from 0 in the order of the file
         for (std::size_t i = 0; i < std::min<std::size_t>(line_of.size(), 100); ++i)
@@ -370,7 +400,7 @@ inline shape from_file(const std::string& path) {
         throw input_error(
             fmt::format("shape file {}: {} (pebbles 0, 1, ... are on the lines {})", path, error.what(), lines));
     }
-    if (const int n = pieces(s); n > 1)
+    if (const int n = pieces(s); n > 1 && !s.overlapping)
         throw input_error(
             fmt::format("shape file {}: the {} pebbles form {} separate pieces. Allowed: one piece, every pebble "
                         "bonded to another through gaps below 1e-3 of the smallest radius. Close the gaps.",
@@ -379,13 +409,14 @@ inline shape from_file(const std::string& path) {
 }
 
 /// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to the
-/// circumscribed diameter d (m). Throws input_error for an unknown name or a wrong file.
-inline shape by_name(const std::string& text, double diameter) {
+/// circumscribed diameter d (m); how: what to make of pebbles of a file that overlap. Throws input_error for an unknown
+/// name or a wrong file.
+inline shape by_name(const std::string& text, double diameter, overlaps how = overlaps::refuse) {
     if (text == "14B" || text == "14b") return apollonian_14(diameter);
     if (text == "4B" || text == "4b") return tetrahedron_4(diameter);
     if (text == "sphere") return sphere(diameter);
     detail::check_diameter(diameter);
-    return scaled_to(from_file(text), diameter);
+    return scaled_to(from_file(text, how), diameter);
 }
 
 } // namespace shapes

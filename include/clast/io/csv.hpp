@@ -101,12 +101,9 @@ inline constexpr column<fracture_event> event_columns[] = {
 namespace detail {
 
 /// The table of a kind of row.
-template <class Row> constexpr std::span<const column<Row>> columns_of() {
-    if constexpr (std::is_same_v<Row, sample>)
-        return series_columns;
-    else
-        return event_columns;
-}
+template <class Row> constexpr std::span<const column<Row>> columns_of();
+template <> constexpr std::span<const column<sample>> columns_of<sample>() { return series_columns; }
+template <> constexpr std::span<const column<fracture_event>> columns_of<fracture_event>() { return event_columns; }
 
 template <class Row> std::string csv_header() {
     std::string line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cloud of grains that touch nothing: random places, random orientations.
+// Where grains stand at the beginning: in a cloud, at random places where they touch nothing.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include <fmt/core.h>
@@ -15,6 +16,8 @@
 #include <clast/bodies/concepts.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/random.hpp>
+#include <clast/grains/mixture.hpp>
+#include <clast/searches/cell_grid.hpp>
 
 namespace clast::protocol {
 
@@ -72,13 +75,11 @@ struct cloud_cells {
     }
     std::size_t size() const { return static_cast<std::size_t>(nx * nx * nz); }
     std::size_t number(const index& c) const { return static_cast<std::size_t>((c.k * nx + c.j) * nx + c.i); }
-    /// f(number) for the cells from a to b, as long as it answers true; whether it always did.
-    template <class F> bool all_of(const index& a, const index& b, F&& f) const {
-        for (std::int64_t k = std::max<std::int64_t>(a.k, 0); k <= std::min(b.k, nz - 1); ++k)
-            for (std::int64_t j = std::max<std::int64_t>(a.j, 0); j <= std::min(b.j, nx - 1); ++j)
-                for (std::int64_t i = std::max<std::int64_t>(a.i, 0); i <= std::min(b.i, nx - 1); ++i)
-                    if (!f(number({i, j, k}))) return false;
-        return true;
+    /// f(number) for the cells from a to b.
+    template <class F> void each(const index& a, const index& b, F&& f) const {
+        for (std::int64_t k = a.k; k <= b.k; ++k)
+            for (std::int64_t j = a.j; j <= b.j; ++j)
+                for (std::int64_t i = a.i; i <= b.i; ++i) f(number({i, j, k}));
     }
 
   private:
@@ -92,69 +93,67 @@ struct cloud_cells {
     }
 };
 
-/// Centres of a cloud so far, and what was there before: who is in the way of a new one?
+/// What stands in the way of a new grain: noted in every cell from which it could be met.
 class cloud_search {
   public:
-    cloud_search(const cloud_cells& cells, double reach)
-        : cells_(cells), reach_(reach), cloud_(cells.size()), before_(cells.size()) {}
+    explicit cloud_search(const cloud_cells& cells) : cells_(cells), near_(cells.size()) {}
 
-    /// Something that is there already: noted in every cell from which it could be met.
-    void keep_off(const vec3& x, double radius) {
-        const double apart = radius + reach_;
+    /// Something that is there; newcomers have a radius (m) of `reach` at most.
+    void keep_off(const vec3& x, double radius, double reach) {
+        const double apart = radius + reach;
         const vec3 around{apart, apart, apart};
-        cells_.all_of(cells_.of(x - around), cells_.of(x + around), [&](std::size_t c) {
-            before_[c].push_back({x, apart * apart});
-            return true;
+        cells_.each(cells_.of(x - around), cells_.of(x + around), [&](std::size_t c) {
+            near_[c].push_back({x, radius});
         });
     }
-    bool is_free(const vec3& x) const {
-        const cloud_cells::index c = cells_.of(x);
-        for (const obstacle& o : before_[cells_.number(c)])
-            if (!(norm2(o.x - x) > o.apart2)) return false;
-        const double apart = 2.0 * reach_; // cells are as wide: the 27 around will do
-        return cells_.all_of({c.i - 1, c.j - 1, c.k - 1}, {c.i + 1, c.j + 1, c.k + 1}, [&](std::size_t n) {
-            return std::all_of(cloud_[n].begin(), cloud_[n].end(),
-                               [&](const vec3& other) { return norm2(other - x) > apart * apart; });
+    bool is_free(const vec3& x, double radius) const {
+        const auto& near = near_[cells_.number(cells_.of(x))];
+        return std::all_of(near.begin(), near.end(), [&](const obstacle& o) {
+            const double apart = o.radius + radius;
+            return norm2(o.x - x) > apart * apart;
         });
     }
-    void add(const vec3& x) { cloud_[cells_.number(cells_.of(x))].push_back(x); }
 
   private:
     struct obstacle {
         vec3 x;
-        double apart2;
+        double radius;
     };
     cloud_cells cells_;
-    double reach_;
-    std::vector<std::vector<vec3>> cloud_;
-    std::vector<std::vector<obstacle>> before_;
+    std::vector<std::vector<obstacle>> near_;
 };
 
 /// A place for a grain.
 struct cloud_place {
+    std::size_t grain; ///< which of those that were to be placed
     vec3 centre;
     quaternion q;
 };
 
-/// Places for `count` grains of a circumscribed radius (m), in the order of their numbers.
+/// Places for grains with these radii of circumscribed spheres (m), which must fall, in the order of their numbers.
 template <class Body, class Room>
-std::vector<cloud_place> cloud_of(const Body& s, double rc, std::size_t count, const Room& room, std::uint64_t seed) {
-    const double free_radius = room.radius - rc, low = room.bottom + rc, high = room.top - rc;
+std::vector<cloud_place> cloud_of(const Body& s, const std::vector<double>& reach, const Room& room,
+                                  std::uint64_t seed) {
+    const std::size_t count = reach.size();
     const auto too_dense = [&](std::size_t placed) {
         return input_error("number of grains", fmt::format("{}", count),
                            fmt::format("about {} in a cloud of radius {:.3g} m and height {:.3g} m", placed,
                                        room.radius, room.top - room.bottom),
                            "Make the vessel larger or the specimen of fewer grains.");
     };
-    if (free_radius <= 0.0 || high <= low) throw too_dense(0);
-    cloud_search others(cloud_cells(free_radius, low, high, 2.0 * rc), rc);
+    if (count == 0) return {};
+    const double most = reach.front(), least = reach.back();
+    if (room.radius - most <= 0.0 || room.top - most <= room.bottom + most) throw too_dense(0);
+    cloud_search others(
+        cloud_cells(room.radius - least, room.bottom + least, room.top - least,
+                    2.0 * std::accumulate(reach.begin(), reach.end(), 0.0) / static_cast<double>(count)));
     for (std::size_t b = 0; b < s.body_count(); ++b) {
         if (s.is_swept(b)) {
-            others.keep_off(s.centre(b), s.bounding_radius(b));
+            others.keep_off(s.centre(b), s.bounding_radius(b), most);
             continue;
         }
         for (std::size_t p = s.pebbles_of(b).begin; p < s.pebbles_of(b).end; ++p)
-            others.keep_off(s.pebbles[p].x, s.pebbles[p].radius);
+            others.keep_off(s.pebbles[p].x, s.pebbles[p].radius, most);
     }
     struct placed : cloud_place {
         std::int64_t slab; // along z
@@ -165,12 +164,13 @@ std::vector<cloud_place> cloud_of(const Body& s, double rc, std::size_t count, c
     const std::size_t most_tries = 2000 * count + 100000;
     for (std::size_t tries = 0; cloud.size() < count; ++tries) {
         if (tries == most_tries) throw too_dense(cloud.size());
-        const vec3 c{free_radius * (2.0 * uniform01(random) - 1.0), free_radius * (2.0 * uniform01(random) - 1.0),
+        const double rc = reach[cloud.size()], half = room.radius - rc, low = room.bottom + rc, high = room.top - rc;
+        const vec3 c{half * (2.0 * uniform01(random) - 1.0), half * (2.0 * uniform01(random) - 1.0),
                      low + (high - low) * uniform01(random)};
-        if (!room.holds(c, rc) || !others.is_free(c)) continue;
-        others.add(c);
-        const auto slab = static_cast<std::int64_t>((c.z - low) / (4.0 * rc));
-        cloud.push_back({{c, orientation(random)}, slab, std::atan2(c.y, c.x)});
+        if (!room.holds(c, rc) || !others.is_free(c, rc)) continue;
+        others.keep_off(c, rc, rc);
+        const auto slab = static_cast<std::int64_t>((c.z - (room.bottom + most)) / (4.0 * most));
+        cloud.push_back({{cloud.size(), c, orientation(random)}, slab, std::atan2(c.y, c.x)});
     }
     // not std::stable_sort, which takes long to compile
     std::sort(cloud.begin(), cloud.end(), [](const placed& a, const placed& b) {
@@ -181,21 +181,88 @@ std::vector<cloud_place> cloud_of(const Body& s, double rc, std::size_t count, c
 
 } // namespace detail
 
-/// Adds `count` grains of a shape to a specimen (bodies::specimen): centres uniform in the room, orientations uniform,
-/// no circumscribed sphere overlapping another, nor a body that is there already (random sequential addition; paper
-/// section 2.3, Fig. 2). Grains are numbered along z, then by angle, so that neighbours in space are neighbours in
-/// memory. The same seed gives the same cloud. Throws input_error if the room cannot take that many (possible up to
-/// about 30 % of sphere volume), or if the specimen cannot hold such a shape.
+/// Places for grains of a mixture (in the order of falling diameter, as mixture::grains_of gives them) in a cloud:
+/// centres uniform in the room, orientations uniform, no circumscribed sphere overlapping another, nor a body that is
+/// there already (random sequential addition, the largest first; paper section 2.3, Fig. 2). They are sorted along z,
+/// then by angle, so that neighbours in space are neighbours in memory. The same seed gives the same cloud. Throws
+/// input_error if the room cannot take that many (possible up to about 30 % of sphere volume).
+template <bodies::specimen Body, room_for_a_cloud Room>
+std::vector<placed_grain> cloud_of(const Body& s, const mixture& of, const std::vector<mixture_grain>& grains,
+                                   const Room& room, std::uint64_t seed) {
+    std::vector<double> reach;
+    for (const mixture_grain& g : grains) reach.push_back(of.reach(g));
+    std::vector<placed_grain> cloud;
+    for (const detail::cloud_place& p : detail::cloud_of(s, reach, room, seed))
+        cloud.push_back({grains[p.grain], p.centre, p.q});
+    return cloud;
+}
+/// Adds grains of a mixture to a specimen, in their places. Throws input_error if it cannot hold such shapes.
+template <bodies::specimen Body> void add(Body& s, const mixture& of, const std::vector<placed_grain>& grains) {
+    std::vector<decltype(s.kind_of(of.parts().front().form))> kinds;
+    for (const mixture_part& p : of.parts()) kinds.push_back(s.kind_of(p.form));
+    for (const placed_grain& g : grains) s.add(kinds[g.part], g.centre, g.q, g.scale);
+}
+
+/// Pebbles of grains in their places, with the numbers of the grains. Throws input_error with the number of the grain
+/// (from 1, as its row in a table) where a part is not of the mixture, a size not above 0, an orientation not of unit
+/// length (to 1e-6), or a pebble reaches into one of another grain by more than a tenth of the smaller radius; and
+/// where there are no grains.
+inline std::vector<searches::sphere> pebbles_of(const mixture& of, const std::vector<placed_grain>& grains) {
+    const auto wrong = [](std::size_t g, const std::string& what, const char* right, const char* way_out) {
+        return input_error(fmt::format("packing, grain {}", g + 1), what, right, way_out);
+    };
+    if (grains.empty()) throw input_error("packing", "no grains", "one grain or more", "Leave it out for a cloud.");
+    std::vector<searches::sphere> pebbles;
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+        const placed_grain& one = grains[g];
+        if (one.part >= of.parts().size())
+            throw wrong(g, fmt::format("shape number {}", one.part), "a shape of the mixture",
+                        "Give the mixture all shapes that are in the packing.");
+        if (!(one.scale > 0.0 && std::isfinite(one.scale) && is_finite(one.centre)))
+            throw wrong(g, fmt::format("scale {}", one.scale), "a size above 0 and a place, finite", "Correct it.");
+        const quaternion& q = one.q;
+        if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 2e-6))
+            throw wrong(g, fmt::format("orientation {} {} {} {}", q.w, q.x, q.y, q.z), "a quaternion of length 1",
+                        "Divide it by its length; 1 0 0 0 leaves the axes of the shape.");
+        for (const shape_pebble& p : of.form(one).pebbles)
+            pebbles.push_back(
+                {one.centre + rotate(q, one.scale * p.offset), one.scale * p.radius, static_cast<std::int32_t>(g)});
+    }
+    for (const searches::sphere_pair& pair : searches::cell_grid{}.pairs(pebbles, 0.0)) {
+        const searches::sphere &a = pebbles[static_cast<std::size_t>(pair.first)],
+                               &b = pebbles[static_cast<std::size_t>(pair.second)];
+        const double depth = a.radius + b.radius - norm(b.centre - a.centre);
+        if (a.id != b.id && depth > 0.1 * std::min(a.radius, b.radius))
+            throw wrong(static_cast<std::size_t>(a.id), fmt::format("{:.3g} m inside grain {}", depth, b.id + 1),
+                        "overlaps of a tenth of the smaller pebble's radius at most",
+                        "Shrink the grains a little, or let the program that packed them settle them.");
+    }
+    return pebbles;
+}
+/// The first of some pebbles that reaches out of a room by more than a tenth of its radius; their number if none does.
+template <room_for_a_cloud Room>
+std::size_t first_outside(const Room& room, const std::vector<searches::sphere>& pebbles) {
+    const auto inside = [&](const searches::sphere& p) {
+        const double r = 0.9 * p.radius;
+        return room.holds(p.centre, r) && p.centre.z - r >= room.bottom && p.centre.z + r <= room.top;
+    };
+    return static_cast<std::size_t>(std::find_if_not(pebbles.begin(), pebbles.end(), inside) - pebbles.begin());
+}
+
+/// Adds a cloud of `count` grains of one shape to a specimen.
 template <bodies::specimen Body, room_for_a_cloud Room>
 void add_cloud(Body& s, const shape& grain, std::size_t count, const Room& room, std::uint64_t seed) {
+    const mixture of(grain);
     const auto kind = s.kind_of(grain);
-    for (const auto& p : detail::cloud_of(s, grain.circumscribed_radius, count, room, seed)) s.add(kind, p.centre, p.q);
+    for (const placed_grain& g : cloud_of(s, of, std::vector<mixture_grain>(count), room, seed))
+        s.add(kind, g.centre, g.q);
 }
 /// The same of a shape that the specimen has already, by its number, in a cylinder.
 inline void add_cloud(bodies::clumps& s, std::int32_t shape_index, std::size_t count, const cylinder& room,
                       std::uint64_t seed) {
     const double reach = s.shapes[static_cast<std::size_t>(shape_index)].circumscribed_radius;
-    for (const auto& p : detail::cloud_of(s, reach, count, room, seed)) s.add(shape_index, p.centre, p.q);
+    for (const auto& p : detail::cloud_of(s, std::vector<double>(count, reach), room, seed))
+        s.add(shape_index, p.centre, p.q);
 }
 
 } // namespace clast::protocol

@@ -17,7 +17,7 @@
 #include <clast/core/errors.hpp>
 #include <clast/core/quantity.hpp>
 #include <clast/engine/engine.hpp>
-#include <clast/grains/shape.hpp>
+#include <clast/grains/mixture.hpp>
 #include <clast/protocol/packing.hpp>
 #include <clast/protocol/runner.hpp>
 #include <clast/protocol/stage.hpp>
@@ -56,20 +56,26 @@ using materials_of = std::conditional_t<std::same_as<L, contacts::linear>, table
 
 /// What a triaxial test is made of. Members without a default must be given, or the program does not compile.
 template <class P> struct triaxial_setup {
-    shape grain;                         ///< template of all grains
+    mixture grain;                       ///< a shape that all grains have, or several, and a grading
     quantities::length diameter;         ///< of the specimen: of the circle that the membrane's polygon circumscribes
     quantities::length height;           ///< of the specimen as packed
     quantities::stress confining;        ///< sigma_3 of consolidation and shear
     typename P::breakage breakage;       ///< criterion, {} for criteria::none
     typename P::replacement replacement; ///< {} for replacements::none
-    double porosity = 0.58;              ///< as packed, counted with pebble volumes (paper section 2.3)
-    int rings = 36;                      ///< V_sec; solid strips ignore it
-    int tiles_per_ring = 20;             ///< H_part
+    /// Where grains start, in place of a cloud (read_packing); then porosity, vessel and seed say nothing, and sizes
+    /// are those of the packing. The vessel starts at the size of the specimen or, where it does not hold the grains,
+    /// at the smallest size that does.
+    std::vector<placed_grain> packing{};
+    double porosity = 0.58;                        ///< as packed, counted with pebble volumes (paper section 2.3)
+    int rings = 36;                                ///< V_sec; solid strips ignore it
+    int tiles_per_ring = 20;                       ///< H_part
     materials_of<typename P::contact> materials{}; ///< table_1, or contacts_of_law for a law of one's own
     double inertial_number = 1e-4;                 ///< largest in shear (paper section 2.2)
     double damping = 0.7;                          ///< local damping
     double safety = 0.8;                           ///< of the time-step estimate
-    double vessel = 1.8;                           ///< size of the cloud's vessel over that of the specimen
+    /// Least size of the cloud's vessel over that of the specimen: grains that fill little of their circumscribed
+    /// spheres, slender ones, get a larger one, in which these spheres take a quarter of the room.
+    double vessel = 1.8;
     std::uint64_t seed = 1;
     int threads = 1;         ///< never changes a result
     std::int64_t rows = 500; ///< rows of the series over 25 % of strain
@@ -213,13 +219,12 @@ template <class P> class triaxial_test {
             if (!good) throw input_error(name, fmt::format("{:g}", value), allowed, way_out);
         };
         const double d = s.diameter.si(), h = s.height.si();
-        demand(!s.grain.pebbles.empty(), "grain", 0, "a shape with pebbles", "Take shapes::tetrahedron_4(0.02).");
+        if (!s.packing.empty()) (void)protocol::pebbles_of(s.grain, s.packing); // looks at them
         demand(s.porosity > 0.2 && s.porosity < 0.95, "porosity", s.porosity, "0.2 to 0.95", "The paper uses 0.58.");
         // toys; results that mean something need 10 grains and more across
-        demand(d >= 2.2 * s.grain.diameter, "diameter (m)", d, "at least 2.2 grain diameters",
-               "Make the specimen larger.");
-        demand(h >= 2.2 * s.grain.diameter, "height (m)", h, "at least 2.2 grain diameters",
-               "Make the specimen larger.");
+        const double largest = sizes(s).largest_diameter;
+        demand(d >= 2.2 * largest, "diameter (m)", d, "at least 2.2 grain diameters", "Make the specimen larger.");
+        demand(h >= 2.2 * largest, "height (m)", h, "at least 2.2 grain diameters", "Make the specimen larger.");
         demand(s.confining.si() > 0.0, "confining (Pa)", s.confining.si(), "> 0", "The paper uses 1.5 and 2 MPa.");
         demand(s.damping >= 0.0 && s.damping < 1.0, "damping", s.damping, "0 to below 1", "0.7 is the default.");
         demand(s.safety > 0.0 && s.safety <= 1.0, "safety", s.safety, "above 0, at most 1", "0.8 is the default.");
@@ -261,11 +266,7 @@ template <class P> class triaxial_test {
             return one.skip_if_relaxed || stress < 0.01 * sigma ? 0.0 : stress;
         });
     }
-    static double smallest_radius(const shape& s) {
-        double r = s.circumscribed_radius;
-        for (const shape_pebble& p : s.pebbles) r = std::min(r, p.radius);
-        return r;
-    }
+    static grain_sizes sizes(const triaxial_setup<P>& s) { return sizes_of(s.grain, s.packing); }
     static boundaries::vessel_settings membrane_settings(const triaxial_setup<P>& s) {
         boundaries::vessel_settings m;
         m.radius = 0.5 * s.diameter.si();
@@ -273,13 +274,14 @@ template <class P> class triaxial_test {
         m.top = 0.5 * s.height.si();
         m.rings = s.rings;
         m.tiles_per_ring = s.tiles_per_ring;
-        m.smallest_radius = smallest_radius(s.grain);
-        for (const shape_pebble& p : s.grain.pebbles) m.largest_radius = std::max(m.largest_radius, p.radius);
+        const grain_sizes grains = sizes(s);
+        m.smallest_radius = grains.smallest_radius;
+        m.largest_radius = grains.largest_radius;
         // Steps up to a grain, or a quarter of the radius in a slender specimen, where a tile that finds no grain would
         // else dig through to the axis. The paper's limit is the smallest particle, so that nothing slips out between
         // two rings; here tiles have ledges and nothing can, and with the smallest pebble of 14B (4.6 mm) the confining
         // stress of a bulging specimen was off by up to 0.8 %.
-        m.largest_gap = std::max(2.0 * m.smallest_radius, std::min(s.grain.diameter, 0.25 * m.radius));
+        m.largest_gap = std::max(2.0 * m.smallest_radius, std::min(grains.d50, 0.25 * m.radius));
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
         m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, 1.0 / r, 0.0});
@@ -289,23 +291,56 @@ template <class P> class triaxial_test {
         }
         return m;
     }
-    static engine<P> make_engine(const triaxial_setup<P>& s) {
-        typename P::body sp;
-        sp.density = s.materials.density;
+    /// How much larger than the specimen (of a volume, m^3) the vessel of a cloud is.
+    static double size_of_vessel(const triaxial_setup<P>& s, const std::vector<mixture_grain>& grains, double volume) {
+        double spheres = 0.0;
+        for (const mixture_grain& g : grains) spheres += sphere_volume(s.grain.reach(g));
+        return std::max(s.vessel, std::cbrt(spheres / (0.25 * volume)));
+    }
+    /// A vessel that is so many times larger than the specimen.
+    static boundary_type vessel_of(const triaxial_setup<P>& s, double larger) {
         boundaries::vessel_settings sizes = membrane_settings(s);
+        sizes.radius *= larger;
+        sizes.bottom *= larger;
+        sizes.top *= larger;
+        return boundary_type::made(sizes);
+    }
+    /// Adds a cloud of grains, and returns its vessel.
+    static boundary_type add_cloud(const triaxial_setup<P>& s, typename P::body& sp) {
         // porosity counts in what encloses the specimen, a polygon or a square, not in the inscribed circle
-        const double volume = boundary_type::made(sizes).volume();
-        const auto count = static_cast<std::size_t>(std::llround((1.0 - s.porosity) * volume / s.grain.volume));
-        sizes.radius *= s.vessel;
-        sizes.bottom *= s.vessel;
-        sizes.top *= s.vessel;
-        boundary_type vessel = boundary_type::made(sizes);
-        protocol::add_cloud(sp, s.grain, count, protocol::inside(vessel), s.seed);
+        const double volume = vessel_of(s, 1.0).volume();
+        const std::vector<mixture_grain> grains = s.grain.grains_of((1.0 - s.porosity) * volume);
+        double spheres = 0.0;
+        for (const mixture_grain& g : grains) spheres += sphere_volume(s.grain.reach(g));
+        boundary_type vessel = vessel_of(s, std::max(s.vessel, std::cbrt(spheres / (0.25 * volume))));
+        protocol::add(sp, s.grain, protocol::cloud_of(sp, s.grain, grains, protocol::inside(vessel), s.seed));
         // grains set off towards the centre with the walls (paper section 2.3: walls and particles move)
         const test_plan defaults;
         const double rate = defaults.packing_rate_before_contact * s.inertial_number *
-                            std::sqrt(s.confining.si() / sp.density) / s.grain.diameter;
+                            std::sqrt(s.confining.si() / sp.density) / s.grain.d50();
         for (std::size_t b = 0; b < sp.body_count(); ++b) sp.shift(b, {}, -rate * sp.centre(b));
+        return vessel;
+    }
+    /// Adds the grains of a packing, and returns a vessel that holds them.
+    static boundary_type add_packing(const triaxial_setup<P>& s, typename P::body& sp) {
+        const std::vector<searches::sphere> pebbles = protocol::pebbles_of(s.grain, s.packing);
+        protocol::add(sp, s.grain, s.packing);
+        for (double larger = 1.0;; larger *= 1.01) {
+            boundary_type vessel = vessel_of(s, larger);
+            const std::size_t out = protocol::first_outside(protocol::inside(vessel), pebbles);
+            if (out == pebbles.size()) return vessel;
+            if (larger < 4.0) continue;
+            const searches::sphere& p = pebbles[out];
+            throw input_error(fmt::format("packing, grain {}", p.id + 1),
+                              fmt::format("a pebble at {:.4g} {:.4g} {:.4g} m", p.centre.x, p.centre.y, p.centre.z),
+                              "inside four times the specimen",
+                              "Compare with diameter and height; the middle of the specimen is at 0 0 0.");
+        }
+    }
+    static engine<P> make_engine(const triaxial_setup<P>& s) {
+        typename P::body sp;
+        sp.density = s.materials.density;
+        boundary_type vessel = s.packing.empty() ? add_cloud(s, sp) : add_packing(s, sp);
         return engine<P>({.grain_contact = s.materials.between_grains(),
                           .platen_contact = s.materials.at_platen(),
                           .lateral_contact = s.materials.at_membrane(),
@@ -322,7 +357,7 @@ template <class P> class triaxial_test {
         p.stages = std::move(stages);
         p.radius = 0.5 * s.diameter.si();
         p.height = s.height.si();
-        p.grain_diameter = s.grain.diameter;
+        p.grain_diameter = sizes(s).d50;
         p.confining = s.confining.si();
         p.inertial_number = s.inertial_number;
         p.row_strain = 0.25 / static_cast<double>(s.rows);

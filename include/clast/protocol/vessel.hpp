@@ -108,7 +108,7 @@ template <class S> struct specimen {
     static constexpr int missing = first_missing(
         bodies::specimen<S>, std::default_initializable<S>, requires(S& s) { s.density = 1.0; },
         requires(S& s, const shape& grain) { s.kind_of(grain); },
-        requires(S& s, const shape& grain) { s.add(s.kind_of(grain), vec3{}, quaternion{}); },
+        requires(S& s, const shape& grain) { s.add(s.kind_of(grain), vec3{}, quaternion{}, 1.0); },
         requires(const S& c) { c.grain_count(); }, requires(const S& c) { c.solid_volume(); });
     static_assert(missing != 1, "policy body of the bundle is no specimen of a test, it lacks a default constructor "
                                 "(clast/bodies/concepts.hpp)");
@@ -117,7 +117,7 @@ template <class S> struct specimen {
     static_assert(missing != 3, "policy body of the bundle is no specimen of a test, it lacks `kind_of(shape)` "
                                 "(clast/bodies/concepts.hpp)");
     static_assert(missing != 4, "policy body of the bundle is no specimen of a test, it lacks `add(kind, centre, "
-                                "orientation)` (clast/bodies/concepts.hpp)");
+                                "orientation, scale)` (clast/bodies/concepts.hpp)");
     static_assert(missing != 5, "policy body of the bundle is no specimen of a test, it lacks `grain_count() const` "
                                 "(clast/bodies/concepts.hpp)");
     static_assert(missing != 6, "policy body of the bundle is no specimen of a test, it lacks `solid_volume() const` "

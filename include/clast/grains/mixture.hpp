@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// What the grains of a specimen are: one shape or several with their shares, of one size each or by a sieve curve.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <clast/core/errors.hpp>
+#include <clast/core/vector.hpp>
+#include <clast/grains/grading.hpp>
+#include <clast/grains/shape.hpp>
+
+namespace clast {
+
+/// A shape of a mixture, and its share of the mass.
+struct mixture_part {
+    shape form;
+    double share = 1.0; ///< > 0; shares of a mixture count in their sum
+};
+
+/// A grain of a mixture that has no place yet.
+struct mixture_grain {
+    std::size_t part = 0; ///< of the mixture
+    double scale = 1.0;   ///< its size over that of its shape
+};
+/// A grain of a mixture in its place.
+struct placed_grain : mixture_grain {
+    vec3 centre;  ///< mass centre (m)
+    quaternion q; ///< turns the axes of the shape into those of the world
+};
+
+/// Shapes with shares of the mass, and a grading that all of them have. A shape alone is a mixture, too: all grains are
+/// as large as the shape. With a grading only the proportions of shapes count.
+class mixture {
+  public:
+    /// Throws input_error, here and below, if there is no shape, one has no pebble, or a share is not positive.
+    mixture(shape one, grading sizes = {})
+        : mixture(std::vector<mixture_part>{{std::move(one), 1.0}}, std::move(sizes)) {}
+    explicit mixture(std::vector<mixture_part> parts, grading sizes = {})
+        : parts_(std::move(parts)), sizes_(std::move(sizes)) {
+        if (parts_.empty())
+            throw input_error("grain", "no shape", "one shape or several", "Take shapes::tetrahedron_4(0.02).");
+        double sum = 0.0;
+        for (const mixture_part& p : parts_) {
+            if (p.form.pebbles.empty())
+                throw input_error("grain", "0", "a shape with pebbles", "Take shapes::tetrahedron_4(0.02).");
+            if (!(p.share > 0.0 && std::isfinite(p.share)))
+                throw input_error("share of shape '" + p.form.name + "'", fmt::format("{:g}", p.share),
+                                  "above 0, finite", "Leave a shape out that has no share.");
+            sum += p.share;
+        }
+        for (mixture_part& p : parts_) p.share /= sum;
+    }
+
+    const std::vector<mixture_part>& parts() const { return parts_; }
+    const grading& sizes() const { return sizes_; }
+    const shape& form(const mixture_grain& g) const { return parts_[g.part].form; }
+    double diameter(const mixture_grain& g) const { return g.scale * form(g).diameter; } ///< (m)
+    /// Of the pebbles of a grain (m^3).
+    double volume(const mixture_grain& g) const { return g.scale * g.scale * g.scale * form(g).volume; }
+    /// Radius of the circumscribed sphere (m).
+    double reach(const mixture_grain& g) const { return g.scale * form(g).circumscribed_radius; }
+
+    /// Sizes of grains (m): the smallest, the largest, and the one that halves the mass.
+    double smallest_diameter() const { return over_diameters(false); }
+    double largest_diameter() const { return over_diameters(true); }
+    double d50() const {
+        if (!sizes_.empty()) return sizes_.size_at(0.5);
+        std::vector<std::pair<double, double>> by_size;
+        for (const mixture_part& p : parts_) by_size.emplace_back(p.form.diameter, p.share);
+        std::sort(by_size.begin(), by_size.end());
+        double finer = 0.0;
+        for (const auto& [d, share] : by_size)
+            if ((finer += share) >= 0.5) return d;
+        return by_size.back().first;
+    }
+    /// Radii of pebbles (m): the smallest and the largest.
+    double smallest_radius() const { return over_radii(false); }
+    double largest_radius() const { return over_radii(true); }
+
+    /// Grains that have a volume of pebbles (m^3) among them, from the largest to the smallest: as near as whole grains
+    /// get to it, to the shares of shapes and to the grading (grading::sizes).
+    std::vector<mixture_grain> grains_of(double volume) const {
+        std::vector<mixture_grain> all;
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            const shape& s = parts_[k].form;
+            const double own = parts_[k].share * volume;
+            if (sizes_.empty()) {
+                all.insert(all.end(), static_cast<std::size_t>(std::llround(own / s.volume)), {k, 1.0});
+            } else {
+                const double d = s.diameter;
+                for (const double size : sizes_.sizes(own, s.volume / (d * d * d))) all.push_back({k, size / d});
+            }
+        }
+        std::sort(all.begin(), all.end(), [this](const mixture_grain& a, const mixture_grain& b) {
+            return diameter(a) != diameter(b) ? diameter(a) > diameter(b) : a.part < b.part;
+        });
+        return all;
+    }
+
+  private:
+    double over_diameters(bool largest) const {
+        if (!sizes_.empty()) return largest ? sizes_.largest() : sizes_.smallest();
+        double d = parts_.front().form.diameter;
+        for (const mixture_part& p : parts_) d = largest ? std::max(d, p.form.diameter) : std::min(d, p.form.diameter);
+        return d;
+    }
+    double over_radii(bool largest) const {
+        double r = largest ? 0.0 : std::numeric_limits<double>::infinity();
+        for (const mixture_part& p : parts_) {
+            const double scale = sizes_.empty() ? 1.0 : over_diameters(largest) / p.form.diameter;
+            for (const shape_pebble& one : p.form.pebbles)
+                r = largest ? std::max(r, scale * one.radius) : std::min(r, scale * one.radius);
+        }
+        return r;
+    }
+
+    std::vector<mixture_part> parts_;
+    grading sizes_;
+};
+
+/// Sizes that walls and speeds have to suit (m).
+struct grain_sizes {
+    double d50 = 0.0;              ///< halves the mass
+    double largest_diameter = 0.0; ///< of a grain
+    double smallest_radius = 0.0;  ///< of a pebble
+    double largest_radius = 0.0;   ///< of a pebble
+};
+
+/// Of a mixture, or of grains of it that are given one by one, if there are any (parts and scales must be such).
+inline grain_sizes sizes_of(const mixture& m, const std::vector<placed_grain>& grains) {
+    if (grains.empty()) return {m.d50(), m.largest_diameter(), m.smallest_radius(), m.largest_radius()};
+    grain_sizes sizes{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
+    std::vector<std::pair<double, double>> by_size; // diameter, volume
+    double left = 0.0;
+    for (const placed_grain& g : grains) {
+        by_size.emplace_back(m.diameter(g), m.volume(g));
+        left += 0.5 * m.volume(g);
+        for (const shape_pebble& p : m.form(g).pebbles) {
+            sizes.smallest_radius = std::min(sizes.smallest_radius, g.scale * p.radius);
+            sizes.largest_radius = std::max(sizes.largest_radius, g.scale * p.radius);
+        }
+    }
+    std::sort(by_size.begin(), by_size.end());
+    sizes.largest_diameter = by_size.back().first;
+    for (const auto& [d, volume] : by_size) {
+        sizes.d50 = d;
+        if ((left -= volume) <= 0.0) break;
+    }
+    return sizes;
+}
+
+} // namespace clast
