@@ -54,6 +54,18 @@ refuse 2 "--rings: '12'" "solid" -- --membrane solid --rings 12
 refuse 2 "--shape" "missing.txt" -- --shape missing.txt
 printf '0 0 0 1\n0 0 x 1\n' >broken.txt
 refuse 2 "broken.txt:2" -- --shape broken.txt
+refuse 2 "--shape: '14B:much'" "behind a colon" "14B:0.7,4B:0.3" -- --shape 14B:much
+refuse 2 "--shape: '14B:0.7,4B:-1'" -- --shape 14B:0.7,4B:-1
+printf '0 0 0 1\n1 0 0 1\n' >overlap.txt
+refuse 2 "overlap.txt" "overlap by" "never break" -- --shape overlap.txt
+refuse 2 "--grading: " "missing.txt" -- --grading missing.txt
+printf '5 0\n10 20\n20 90\n' >short.txt
+refuse 2 "--grading: " "short.txt" "from 0 % to 90 %" -- --grading short.txt
+printf '5 0\n100 100\n' >coarse.txt
+refuse 2 "--grading: 'grains of 100 mm'" "up to 55 mm at scale 0.4" "--scale 0.74" -- --grading coarse.txt --tiles-per-ring 8 --rings 4
+refuse 2 "--packing: " "missing.txt" -- --packing missing.txt
+printf '0 0 0 0.02\n' >ball.txt
+refuse 2 "--packing: " "ball.txt:1" "orientations" -- --packing ball.txt
 refuse 2 "--strength: 'week'" "weak, medium, strong" -- --strength week
 refuse 2 "--membrane: 'rubber'" "tiles, solid" -- --membrane rubber
 refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --criterion tresca

@@ -16,9 +16,9 @@
 
 #include <clast/core/errors.hpp>
 #include <clast/core/quantity.hpp>
-#include <clast/grains/shape.hpp>
-#include <clast/io/archive.hpp>
 #include <clast/version.hpp>
+
+#include "grains.hpp"
 
 namespace triaxial {
 
@@ -28,16 +28,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int fewest_tiles = 6; // below, the polygon no longer resembles a cylinder
 constexpr int fewest_default_tiles = 8;
 constexpr double smallest_scale = 0.15; // the diameter is then 2.25 grains
 constexpr double largest_scale = 2.0;
 
 /// What was typed; empty where the option was not given.
 struct raw {
-    std::string shape, strength, membrane, rings, tiles, confining, scale, strain, inertial_number, criterion, weibull,
-        replacement, birth, bond_stiffness, friction, platen_friction, membrane_friction, damping, seed, threads, out,
-        resume, save_every, snapshots, rows, stop_after, protocol, preset;
+    std::string shape, grading, packing, strength, membrane, rings, tiles, confining, scale, strain, inertial_number,
+        criterion, weibull, replacement, birth, bond_stiffness, friction, platen_friction, membrane_friction, damping,
+        seed, threads, out, resume, save_every, snapshots, rows, stop_after, protocol, preset;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -100,7 +99,15 @@ void declare(CLI::App& app, raw& r) {
             ->type_name(kind)
             ->group(group);
     };
-    add("--shape", r.shape, "NAME|FILE", "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line", "4B");
+    add("--shape", r.shape, "NAME|FILE",
+        "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line;\nseveral with their shares of the mass: "
+        "14B:0.7,4B:0.3",
+        "4B");
+    add("--grading", r.grading, "FILE", "sieve curve: lines 'size finer', in mm and % of the mass", "all grains 20 mm");
+    add("--packing", r.packing, "FILE",
+        "where grains start: packing.csv of another run,\nor lines 'x y z d' (m) for "
+        "spheres",
+        "a cloud");
     add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");
     add("--membrane", r.membrane, "NAME", "lateral boundary: tiles, or solid (strips that move as one)", "tiles");
     add("--rings", r.rings, "N", "rings of tiles over the height (V_sec)", "36 * scale");
@@ -179,41 +186,13 @@ bool allowed_with_resume(const std::string& name) {
     throw input_error(fmt::format("{}. See --help.", error.what()));
 }
 
-void read_shape(options& o) {
-    const clast::shape grain = [&o] {
-        try {
-            return clast::shapes::by_name(o.shape, grain_diameter);
-        } catch (const input_error& e) {
-            const std::string text = e.what();
-            throw input_error((text.starts_with("shape: ") ? "--" : "--shape: ") + text);
-        }
-    }();
-    double largest = 0.0;
-    for (const clast::shape_pebble& p : grain.pebbles) largest = std::max(largest, 2.0 * p.radius);
-    const bool named = o.shape == "4B" || o.shape == "14B" || o.shape == "sphere";
-    if (!named) o.shape_checksum = clast::checksum(grain.pebbles);
-
-    // tiles and strips have to be wider than a pebble, or one could slip through a corner
-    const double width = tile_width(o.diameter(), o.tiles_per_ring);
-    if (width < largest) {
-        const int most = static_cast<int>(std::numbers::pi / std::atan(largest / o.diameter()));
-        const double enough = largest / std::tan(std::numbers::pi / o.tiles_per_ring) / full_diameter;
-        throw input_error("--tiles-per-ring", fmt::format("{}", o.tiles_per_ring),
-                          fmt::format("{} to {} at scale {} (a tile would be {:.1f} mm wide, a pebble is {:.1f} mm)",
-                                      fewest_tiles, most, o.scale, 1e3 * width, 1e3 * largest),
-                          fmt::format("Use fewer tiles, or --scale {:.2f} or more.", std::ceil(100 * enough) / 100));
-    }
-    if (const double tall = o.height() / o.rings; tall < largest)
-        throw input_error("--rings", fmt::format("{}", o.rings),
-                          fmt::format("1 to {} at scale {} (a tile would be {:.1f} mm high, a pebble is {:.1f} mm)",
-                                      static_cast<int>(o.height() / largest), o.scale, 1e3 * tall, 1e3 * largest),
-                          fmt::format("Use fewer rings, or --scale {:.2f} or more.",
-                                      std::ceil(100 * largest * o.rings / full_height) / 100));
-}
-
 void read_tiles(options& o, const raw& r) {
     const bool solid = o.membrane == "solid";
-    o.rings = solid ? 1 : std::max(1, static_cast<int>(std::lround(36 * o.scale)));
+    const clast::mixture mixture = grains_of(o);
+    const clast::grain_sizes grains = sizes_of(mixture, packing_of(o, mixture));
+    // about as high as the paper's tiles, and none lower than a pebble
+    const int high_enough = static_cast<int>(o.height() / (2.0 * grains.largest_radius) * (1.0 + 1e-9));
+    o.rings = solid ? 1 : std::max(1, std::min(static_cast<int>(std::lround(36 * o.scale)), high_enough));
     if (!r.rings.empty())
         o.rings = whole_number(r.rings, "--rings", 1, 1000, "The paper uses 12, 24 and 36 at scale 1.");
     if (solid && o.rings != 1)
@@ -226,12 +205,13 @@ void read_tiles(options& o, const raw& r) {
         return;
     }
     // about the width of the paper's tiles, but ten for a round ring, and none narrower than a grain
-    const int wide_enough = static_cast<int>(std::numbers::pi / std::atan(grain_diameter / o.diameter()));
+    const double grain = grains.largest_diameter;
+    const int wide_enough = static_cast<int>(std::numbers::pi / std::atan(grain / o.diameter()));
     o.tiles_per_ring = std::min(std::max(10, static_cast<int>(std::lround(20 * o.scale))), wide_enough);
     if (o.tiles_per_ring < fewest_default_tiles) {
-        const double enough = grain_diameter / std::tan(std::numbers::pi / fewest_default_tiles) / full_diameter;
+        const double enough = grain / std::tan(std::numbers::pi / fewest_default_tiles) / full_diameter;
         throw input_error(
-            "--scale", r.scale,
+            "--scale", fmt::format("{}", o.scale),
             fmt::format("{:.2f} to {:g}: a ring needs {} tiles that are wider than a grain",
                         std::ceil(100 * enough) / 100, largest_scale, fewest_default_tiles),
             fmt::format("Use a larger scale, or set --tiles-per-ring ({} or more) yourself.", fewest_tiles));
@@ -293,6 +273,7 @@ options checked_options(const raw& r) {
     options o;
     if (!r.shape.empty()) o.shape = r.shape;
     if (o.shape == "4b" || o.shape == "14b") o.shape.back() = 'B';
+    o.grading = r.grading, o.packing = r.packing;
     choose(o.strength, r.strength, "--strength", {"weak", "medium", "strong"});
     choose(o.membrane, r.membrane, "--membrane", {"tiles", "solid"});
     choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload"});
@@ -337,14 +318,12 @@ options checked_options(const raw& r) {
     if (!r.rows.empty()) o.rows = whole_number(r.rows, "--rows", 1, 10000000, "500 is usual.");
     read_bond_stiffness(o, r.bond_stiffness);
     read_tiles(o, r);
-    read_shape(o);
+    check_grains(o);
     read_run(o, r);
     o.overwrite = r.overwrite;
-    o.out = !r.out.empty()
-                ? fs::path(r.out)
-                : fs::path("results") / fmt::format("{}-{}-{}-{}",
-                                                    o.shape_checksum != 0 ? fs::path(o.shape).stem().string() : o.shape,
-                                                    o.membrane, o.strength, stress_text(o.confining));
+    o.out = !r.out.empty() ? fs::path(r.out)
+                           : fs::path("results") / fmt::format("{}-{}-{}-{}", grains_title(o), o.membrane, o.strength,
+                                                               stress_text(o.confining));
     return o;
 }
 
@@ -366,9 +345,14 @@ options resumed_options(const CLI::App& app, const raw& r) {
     std::vector<std::string> stored;
     for (std::string line; std::getline(file, line);)
         if (!line.empty()) stored.push_back(line);
-    // the copy of a shape file is in the folder, wherever that is now
+    // copies of files are in the folder, wherever that is now
     for (std::string& a : stored)
-        if (a.starts_with("--shape=shape/")) a = "--shape=" + (folder / a.substr(8)).string();
+        if (a.starts_with("--shape=") || a.starts_with("--grading=") || a.starts_with("--packing=")) {
+            const std::string own = std::string(input_folder) + "/", there = (folder / input_folder).string() + "/";
+            for (std::size_t at = a.find(own); at != std::string::npos; at = a.find(own, at + there.size())) {
+                if (a[at - 1] == '=' || a[at - 1] == ',') a.replace(at, own.size(), there);
+            }
+        }
     options o;
     try {
         o = parse_options(stored).values;
@@ -442,9 +426,7 @@ std::string physics_text(const options& o) {
     const auto line = [&text](std::string_view name, const auto& value, std::string_view unit = "") {
         text += fmt::format("{} = {}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
     };
-    line("shape", o.shape_checksum == 0
-                      ? o.shape
-                      : fmt::format("{} (checksum {:016x})", fs::path(o.shape).stem().string(), o.shape_checksum));
+    text += grains_text(o);
     line("strength", o.strength);
     line("membrane", o.membrane);
     line("rings", o.rings);
@@ -476,6 +458,8 @@ std::vector<std::string> to_arguments(const options& o) {
         a.push_back(fmt::format("--{}={}{}", name, value, unit));
     };
     add("shape", o.shape);
+    if (!o.grading.empty()) add("grading", o.grading);
+    if (!o.packing.empty()) add("packing", o.packing);
     add("strength", o.strength);
     add("membrane", o.membrane);
     add("rings", o.rings);

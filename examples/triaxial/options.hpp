@@ -28,26 +28,29 @@ inline constexpr strength_class strength_classes[] = {
 
 inline constexpr double full_diameter = 0.30;  ///< of the specimen at scale 1 (m), paper section 2.3
 inline constexpr double full_height = 0.70;    ///< of the specimen at scale 1 (m)
-inline constexpr double grain_diameter = 0.02; ///< at every scale (m)
+inline constexpr double grain_diameter = 0.02; ///< at every scale, without a grading (m)
+inline constexpr int fewest_tiles = 6;         ///< in a ring: below, the polygon no longer resembles a cylinder
 
 /// Everything that can be chosen. Values are checked; SI units.
 struct options {
     // what is tested
-    std::string shape = "4B";          ///< "4B", "14B" or the path of a file
-    std::uint64_t shape_checksum = 0;  ///< of the pebbles of a shape from a file, 0 for a named one
-    std::string strength = "weak";     ///< name of a strength class
-    std::string membrane = "tiles";    ///< "solid" or "tiles"
-    int rings = 14;                    ///< V_sec; 1 for solid
-    int tiles_per_ring = 10;           ///< H_part
-    double confining = 2e6;            ///< (Pa)
-    double scale = 0.4;                ///< 1 is 30 x 70 cm
-    double strain = 0.25;              ///< axial strain at the end of shear
-    std::string protocol = "triaxial"; ///< "triaxial", "isotropic" or "unload"
-    double inertial_number = 1e-4;     ///< limit in shear
-    double friction = 0.3;             ///< between pebbles
-    double platen_friction = 0.0;      ///< of the platens
-    double membrane_friction = 0.0;    ///< of the membrane
-    double damping = 0.7;              ///< local damping
+    std::string shape = "4B"; ///< "4B", "14B", "sphere" or the path of a file; several as in "14B:0.7,4B:0.3"
+    std::string grading;      ///< path of a sieve curve; empty: all grains have 2 cm
+    std::string packing;      ///< path of a packing; empty: a cloud
+    std::vector<std::uint64_t> checksums{}; ///< of the files above (input_files)
+    std::string strength = "weak";          ///< name of a strength class
+    std::string membrane = "tiles";         ///< "solid" or "tiles"
+    int rings = 14;                         ///< V_sec; 1 for solid
+    int tiles_per_ring = 10;                ///< H_part
+    double confining = 2e6;                 ///< (Pa)
+    double scale = 0.4;                     ///< 1 is 30 x 70 cm
+    double strain = 0.25;                   ///< axial strain at the end of shear
+    std::string protocol = "triaxial";      ///< "triaxial", "isotropic" or "unload"
+    double inertial_number = 1e-4;          ///< limit in shear
+    double friction = 0.3;                  ///< between pebbles
+    double platen_friction = 0.0;           ///< of the platens
+    double membrane_friction = 0.0;         ///< of the membrane
+    double damping = 0.7;                   ///< local damping
     std::uint64_t seed = 1;
     // how grains break
     std::string criterion = "nominal_force";

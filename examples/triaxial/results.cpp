@@ -18,6 +18,8 @@
 #include <clast/io/detail/atomic_file.hpp>
 #include <clast/version.hpp>
 
+#include "grains.hpp"
+
 namespace triaxial {
 
 using clast::input_error;
@@ -27,8 +29,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // What a run writes; nothing else in the folder is ever touched.
-constexpr std::array own_files{"series.csv",   "events.csv", "summary.json", "checkpoint.clast",
-                               arguments_file, "vtk",        "plots",        "shape"};
+constexpr std::array own_files{"series.csv", "events.csv", "summary.json", "checkpoint.clast", arguments_file,
+                               "vtk",        "plots",      input_folder,   "packing.csv"};
 
 bool is_shear(const sample& s) {
     return std::find(shear_stages.begin(), shear_stages.end(), s.stage) != shear_stages.end();
@@ -165,9 +167,8 @@ result_folder::result_folder(const options& o) : options_(o), folder_(o.out) {
 
     // written before anything is removed, so that a folder that cannot be written keeps what it has
     std::string text;
-    options stored = o;
-    const bool from_file = o.shape_checksum != 0;
-    if (from_file) stored.shape = (fs::path("shape") / fs::path(o.shape).filename()).string();
+    const std::vector<fs::path> inputs = input_files(o);
+    const options stored = with_files_in(o, input_folder);
     for (const std::string& a : to_arguments(stored)) text += a + "\n";
     try {
         clast::detail::replace_file(folder_ / arguments_file, {text});
@@ -176,7 +177,7 @@ result_folder::result_folder(const options& o) : options_(o), folder_(o.out) {
     }
     for (const char* name : own_files) {
         const bool needed =
-            std::string_view(name) == arguments_file || (from_file && std::string_view(name) == "shape");
+            std::string_view(name) == arguments_file || (!inputs.empty() && std::string_view(name) == input_folder);
         if (!needed) fs::remove_all(folder_ / name, error);
     }
     for (const char* name : {"vtk", "plots"}) {
@@ -185,11 +186,12 @@ result_folder::result_folder(const options& o) : options_(o), folder_(o.out) {
             throw unusable(o, fmt::format("A folder in it cannot be created: {}.", error.message()),
                            "Choose another one.");
     }
-    if (from_file) {
-        fs::create_directories(folder_ / "shape", error);
-        fs::copy_file(o.shape, folder_ / stored.shape, fs::copy_options::overwrite_existing, error);
-        if (error && !fs::equivalent(o.shape, folder_ / stored.shape, error))
-            throw unusable(o, fmt::format("The shape cannot be copied to it: {}.", error.message()),
+    if (!inputs.empty()) fs::create_directories(folder_ / input_folder, error);
+    for (const fs::path& file : inputs) {
+        const fs::path copy = folder_ / input_folder / file.filename();
+        fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
+        if (error && !fs::equivalent(file, copy, error))
+            throw unusable(o, fmt::format("'{}' cannot be copied to it: {}.", file.string(), error.message()),
                            "Choose another one.");
     }
     series_.emplace(folder_ / "series.csv");
@@ -257,7 +259,7 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
                      {"height_m", options_.height()},
                      {"grains", facts.grains},
                      {"pebbles", facts.pebbles},
-                     {"bonds_per_grain", facts.bonds_per_grain}};
+                     {"bonds_in_all_grains", facts.bonds_in_all_grains}};
     if (n.sheared)
         j["shear"] = {{"peak_q_Pa", n.peak_q.value},
                       {"peak_q_axial_strain", n.peak_q.axial_strain},
@@ -317,10 +319,9 @@ void result_folder::finish(const run_facts& facts) {
         report = draw_plots(folder_ / "plots", request);
     }
 
-    fmt::print("\n{} {}, {} membrane, {}: {} grains, {} pebbles, {} steps in {}\n",
-               options_.shape_checksum ? fs::path(options_.shape).stem().string() : options_.shape, options_.strength,
-               options_.membrane, stress_text(options_.confining), facts.grains, facts.pebbles, n.steps,
-               time_text(n.wall_time));
+    fmt::print("\n{} {}, {} membrane, {}: {} grains, {} pebbles, {} steps in {}\n", grains_title(options_),
+               options_.strength, options_.membrane, stress_text(options_.confining), facts.grains, facts.pebbles,
+               n.steps, time_text(n.wall_time));
     if (n.sheared) {
         fmt::print("  peak q              {:8.3f} MPa at axial strain {:.1f} %\n", n.peak_q.value / 1e6,
                    100 * n.peak_q.axial_strain);

@@ -33,7 +33,7 @@ struct result_position {
 struct run_facts {
     std::int64_t grains = 0;
     std::int64_t pebbles = 0;
-    std::int64_t bonds_per_grain = 0;
+    std::int64_t bonds_in_all_grains = 0; ///< if all of them became clusters
     int threads = 1;
     std::string bundle;         ///< name of the policies
     std::uint64_t checksum = 0; ///< of the final state

@@ -14,10 +14,12 @@
 
 #include <clast/core/errors.hpp>
 #include <clast/io/checkpoint.hpp>
+#include <clast/io/packing.hpp>
 #include <clast/io/progress.hpp>
 #include <clast/measure/digest.hpp>
 #include <clast/protocol/triaxial.hpp>
 
+#include "grains.hpp"
 #include "options.hpp"
 #include "results.hpp"
 #include "signals.hpp"
@@ -54,6 +56,8 @@ template <class Test> class watcher : public clast::observer {
     void on_events(const std::vector<clast::fracture_event>& events) override { folder_.events(events); }
     void on_stage(const std::string& name, bool begins) override {
         if (begins && !options_.quiet) bar_.note(fmt::format("{}: until {}", name, end_of(name)));
+        // the specimen as prepared: another run may start from it, whatever its membrane
+        if (name == "consolidate" && begins) clast::write_packing(folder_.path() / "packing.csv", test_.sim().grains);
         if (name == "shear" && begins) {
             folder_.start_of_shear(view());
             next_snapshot_ = 1;
@@ -172,12 +176,15 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
         replacement.bond.cohesion = o.rock().bond_cohesion;
         replacement.how = o.birth == "zero" ? replacements::birth::zero_force : replacements::birth::warm_start;
     }
-    return {.grain = shapes::by_name(o.shape, grain_diameter),
+    mixture grains = grains_of(o);
+    std::vector<placed_grain> packing = packing_of(o, grains);
+    return {.grain = std::move(grains),
             .diameter = quantities::length{o.diameter()},
             .height = quantities::length{o.height()},
             .confining = quantities::stress{o.confining},
             .breakage = std::move(breakage),
             .replacement = std::move(replacement),
+            .packing = std::move(packing),
             .rings = std::max(o.rings, 1),
             .tiles_per_ring = o.tiles_per_ring,
             .materials = materials,
@@ -197,9 +204,9 @@ template <class P> int run_bundle(const options& o, const char* name) {
     result_folder folder = o.resume ? result_folder(o, state.at) : result_folder(o);
     watcher<test_type> watch(o, test, folder, fingerprint);
     if (!o.quiet)
-        watch.bar().note(fmt::format("{} {} grains of {} pebbles, specimen {:.3g} x {:.3g} cm, {} thread{}",
+        watch.bar().note(fmt::format("{} {} grains, {} pebbles, specimen {:.3g} x {:.3g} cm, {} thread{}",
                                      o.resume ? "resuming:" : "", test.sim().grains.grain_count(),
-                                     test.setup().grain.pebbles.size(), 100.0 * o.diameter(), 100.0 * o.height(),
+                                     test.sim().grains.pebble_count(), 100.0 * o.diameter(), 100.0 * o.height(),
                                      test.setup().threads, test.setup().threads == 1 ? "" : "s"));
     bool finished = false;
     try {
@@ -221,9 +228,12 @@ template <class P> int run_bundle(const options& o, const char* name) {
     }
     watch.save(); // so that a finished run can be looked at again
     const auto& counters = test.sim().boundary.counters();
+    std::int64_t bonds_in_all_grains = 0;
+    for (const clast::grain& g : test.sim().grains.grains)
+        bonds_in_all_grains += static_cast<std::int64_t>(test.sim().grains.shape_of(g).bonds.size());
     folder.finish({.grains = static_cast<std::int64_t>(test.sim().grains.grain_count()),
                    .pebbles = static_cast<std::int64_t>(test.sim().grains.pebble_count()),
-                   .bonds_per_grain = static_cast<std::int64_t>(test.setup().grain.bonds.size()),
+                   .bonds_in_all_grains = bonds_in_all_grains,
                    .threads = test.setup().threads,
                    .bundle = name,
                    // without the forces of the last step, which a finished run that is looked at again does not have

@@ -132,6 +132,8 @@ TEST_CASE("every option that decides results changes the fingerprint, and no oth
     const std::string base = physics_text(read({}));
     for (const std::vector<std::string>& changed :
          std::vector<std::vector<std::string>>{{"--shape", "14B"},
+                                               {"--shape", "14B,4B"},
+                                               {"--shape", "14B:0.7,4B:0.3"},
                                                {"--strength", "medium"},
                                                {"--membrane", "solid"},
                                                {"--rings", "12"},
