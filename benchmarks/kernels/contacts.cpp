@@ -2,11 +2,13 @@
 // Cost of contact laws with gathering: few contacts in the first cache, and a list with the sums of bodies.
 // A law of your own: #include its header and add one line, BENCHMARK_LAW(your_law{...}).
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include <clast/contacts/by_material.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/contacts/rolling.hpp>
@@ -19,6 +21,7 @@ using namespace clast;
 /// Pairs of touching spheres in rows: pebble k against k + 1, and every second against k + 7.
 template <class Law> struct chain {
     std::vector<pebble_motion> pebbles;
+    std::vector<std::uint8_t> materials; ///< two by turns
     contact_list<typename Law::history> list;
 
     explicit chain(std::size_t n) {
@@ -28,12 +31,14 @@ template <class Law> struct chain {
         for (std::size_t k = 0; k < n; ++k)
             pebbles.push_back(
                 {vec3{0.0199 * static_cast<double>(k), 0.0, 0.0} + any(1e-5), 0.01, any(0.1), 100.0, any(5.0), 1e6});
+        for (std::size_t k = 0; k < n; ++k) materials.push_back(k % 3 == 0 ? 1 : 0);
         for (std::int32_t k = 0; k + 7 < static_cast<std::int32_t>(n); ++k) {
             list.pairs.push_back({k, k + 1});
             if (k % 2 == 0) list.pairs.push_back({k, k + 7});
         }
         list.resize();
     }
+    sphere_view view() const { return {pebbles.data(), materials.data()}; }
 };
 
 /// Looks at results only.
@@ -62,7 +67,7 @@ struct sum_job {
 
 template <class Law> void in_cache(benchmark::State& state, Law law) {
     chain<Law> c(128);
-    for (auto _ : state) evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6, look_job{});
+    for (auto _ : state) evaluate(c.list, {0, c.list.size()}, c.view(), law, 1e-6, look_job{});
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));
 }
 
@@ -70,10 +75,16 @@ template <class Law> void in_list(benchmark::State& state, Law law) {
     chain<Law> c(static_cast<std::size_t>(state.range(0)));
     std::vector<load_sum> load(c.pebbles.size());
     for (auto _ : state) {
-        evaluate(c.list, {0, c.list.size()}, sphere_view{c.pebbles.data()}, law, 1e-6, sum_job{load.data()});
+        evaluate(c.list, {0, c.list.size()}, c.view(), law, 1e-6, sum_job{load.data()});
         benchmark::DoNotOptimize(load.data());
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.list.size()));
+}
+
+contacts::by_material<contacts::linear, 2> two_rocks() {
+    return contacts::by_material<contacts::linear, 2>::of([](std::size_t a, std::size_t b) {
+        return contacts::linear{1e6 * static_cast<double>(1 + a + b), 5e5, 0.3};
+    });
 }
 
 #define BENCHMARK_LAW(...)                                                                                             \
@@ -81,6 +92,7 @@ template <class Law> void in_list(benchmark::State& state, Law law) {
     BENCHMARK_CAPTURE(in_list, #__VA_ARGS__, __VA_ARGS__)->Arg(1'000)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)
 
 BENCHMARK_LAW(contacts::linear{1e6, 5e5, 0.3});
+BENCHMARK_LAW(two_rocks());
 BENCHMARK_LAW(contacts::linear_dashpot{1e6, 5e5, 0.3, 1e3});
 BENCHMARK_LAW(contacts::rolling<contacts::linear>{{1e6, 5e5, 0.3}, 10.0, 0.1, 10.0, 0.1});
 

@@ -12,6 +12,7 @@
 #include <clast/boundaries/tiles.hpp>
 #include <clast/constraints/held.hpp>
 #include <clast/constraints/none.hpp>
+#include <clast/contacts/by_material.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/contacts/rolling.hpp>
@@ -20,6 +21,8 @@
 #include <clast/engine/engine.hpp>
 #include <clast/fields/gravity.hpp>
 #include <clast/fields/none.hpp>
+#include <clast/grains/grading.hpp>
+#include <clast/grains/mixture.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/integrators/leapfrog.hpp>
 #include <clast/protocol/triaxial.hpp>

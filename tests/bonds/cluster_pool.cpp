@@ -41,16 +41,17 @@ struct world {
     double work = 0.0; // of the loads
     bool packs = false;
 
-    world(const shape& s, const parallel& material, double damping) : pool(lattice(s, material, density), damping) {}
+    world(const shape& s, const parallel& material, double damping, double rho = density)
+        : pool(lattice(s, material, rho), damping) {}
 
     std::size_t pebbles() const { return pool.shape().size(); }
 
     std::size_t add(const quaternion& q = {}, const std::vector<state>& born = {}, double strength = 1.0,
-                    double scale = 1.0) {
+                    double scale = 1.0, double density_ratio = 1.0) {
         for (const vec3& x : pool.shape().offset) position.push_back(rotate(q, scale * x));
         motion.resize(position.size());
         load.resize(position.size());
-        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born, strength, scale);
+        return pool.add(born.empty() ? std::vector<state>(pool.bonds()) : born, strength, {scale, density_ratio});
     }
     /// Of a bond in `later` seconds, at the present velocities.
     vec3 normal(std::size_t cluster, std::size_t bond, double later = 0.0) const {
@@ -534,7 +535,8 @@ TEST_CASE("clusters that change seats keep their bits and the order in which the
     CHECK(packed.pool.batches() == (living + lanes - 1) / lanes);
 }
 
-TEST_CASE("a cluster of a quarter of the size of its shape is one of the shape of that size, to the last bit") {
+TEST_CASE(
+    "a cluster of a quarter of size and density of its lattice is one of that size and density, to the last bit") {
     // powers of four, because then roots are exact, too; frequencies of the readings are 8, 2 and 4 times as high
     const shape big = shapes::tetrahedron_4(0.08), small = scaled_to(big, 0.25 * big.diameter);
     for (const stiffness_reading reading :
@@ -545,7 +547,7 @@ TEST_CASE("a cluster of a quarter of the size of its shape is one of the shape o
         bond.radius_multiplier = 0.75;
         if (reading == stiffness_reading::per_area) bond.normal_stiffness = 1e13, bond.shear_stiffness = 5e12;
         if (reading == stiffness_reading::modulus) bond.normal_stiffness = 5e10, bond.shear_stiffness = 2e10;
-        world by_scale(big, bond, 0.3), by_shape(small, bond, 0.3);
+        world by_scale(big, bond, 0.3, 4.0 * density), by_shape(small, bond, 0.3);
         by_scale.packs = by_shape.packs = true;
         random_stream random{9, 21};
         for (int c = 0; c < 11; ++c) {
@@ -554,13 +556,13 @@ TEST_CASE("a cluster of a quarter of the size of its shape is one of the shape o
             const std::vector<pebble_load> load = balanced(random, by_shape.pool.shape(), q, 500.0);
             const vec3 spin = direction(random);
             const auto born = by_shape.pool.shape().statics(load, q, spin);
-            const auto from_scale = by_scale.pool.shape().statics(load, q, spin, 0.25);
+            const auto from_scale = by_scale.pool.shape().statics(load, q, spin, {0.25, 0.25});
             for (std::size_t b = 0; b < born.size(); ++b) REQUIRE(same(born[b], from_scale[b]));
-            by_scale.add(q, from_scale, strength, 0.25), by_shape.add(q, born, strength);
+            by_scale.add(q, from_scale, strength, 0.25, 0.25), by_shape.add(q, born, strength);
         }
         for (std::size_t k = 0; k < by_shape.load.size(); ++k)
             by_scale.load[k] = by_shape.load[k] = {1200.0 * direction(random), 2.0 * direction(random)};
-        CHECK(by_scale.pool.substeps(1e-5, 0.25) == by_shape.pool.substeps(1e-5));
+        CHECK(by_scale.pool.substeps(1e-5, {0.25, 0.25}) == by_shape.pool.substeps(1e-5));
         for (int i = 0; i < 60; ++i) by_scale.step(2e-6), by_shape.step(2e-6);
         CHECK(by_shape.broken.size() > 10);
         CHECK(by_shape.stored() > 0.0);
@@ -613,7 +615,7 @@ TEST_CASE("clusters of many sizes side by side: each has the bits that it has al
     CHECK(all.broken.size() > 20);
     std::size_t whole = 0;
     for (std::size_t c = 0; c < scale.size(); ++c) {
-        CHECK(all.pool.scale(c) == scale[c]);
+        CHECK(all.pool.like(c).scale == scale[c]);
         CHECK(all.pool.intact_bonds(c) == alone[c].pool.intact_bonds(0));
         CHECK(all.pool.energy(c) == alone[c].pool.energy(0));
         whole += all.pool.intact_bonds(c) == 6;
@@ -621,8 +623,8 @@ TEST_CASE("clusters of many sizes side by side: each has the bits that it has al
         // the highest mode of that size turns by a radian at most, and not by much less
         const lattice own(scaled_to(s, scale[c] * 0.02), parallel{}, density);
         const double far = 1e-3; // s: many steps, so that rounding up to a whole number says little
-        CHECK(all.pool.substeps(far, scale[c]) >= far * own.highest_frequency);
-        CHECK(all.pool.substeps(far, scale[c]) <= 1.2 * far * own.highest_frequency + 1.0);
+        CHECK(all.pool.substeps(far, {scale[c]}) >= far * own.highest_frequency);
+        CHECK(all.pool.substeps(far, {scale[c]}) <= 1.2 * far * own.highest_frequency + 1.0);
     }
     CHECK(whole < scale.size());
     // no batch holds clusters of two classes, and none is left out
@@ -633,7 +635,7 @@ TEST_CASE("clusters of many sizes side by side: each has the bits that it has al
         for (std::size_t l = 0; l < lanes; ++l) {
             const std::int32_t c = all.pool.living(batch, l);
             if (c < 0) continue;
-            const int own = all.pool.substeps(1e-3, scale[static_cast<std::size_t>(c)]);
+            const int own = all.pool.substeps(1e-3, {scale[static_cast<std::size_t>(c)]});
             CHECK((steps == 0 || own == steps));
             steps = own, ++living;
         }

@@ -63,7 +63,8 @@ template <class F> struct row_job {
 
 /// Contacts [begin, end) of a scene, rows kept.
 template <class Adjust> void evaluate_all(scene& s, std::size_t begin, std::size_t end, Adjust&& adjust) {
-    evaluate(s.list, {begin, end}, sphere_view{s.pebbles.data()}, s.law, 1e-5, row_job<Adjust>{s.list, adjust});
+    evaluate(s.list, {begin, end}, sphere_view{s.pebbles.data(), nullptr}, s.law, 1e-5,
+             row_job<Adjust>{s.list, adjust});
 }
 void evaluate_all(scene& s, std::size_t begin, std::size_t end) {
     evaluate_all(s, begin, end, [](work_strip&, const contact_block&) {});
@@ -182,7 +183,7 @@ TEST_CASE("loads of both bodies are the row's force and its moments about their 
         owner.push_back(static_cast<std::int32_t>(s.pebbles.size() - 1 - p));
     }
     std::reverse(bodies.begin(), bodies.end());
-    const clump_view clumps{pebbles.data(), owner.data(), bodies.data()};
+    const clump_view clumps{pebbles.data(), owner.data(), bodies.data(), nullptr};
     const auto centre = [&](std::size_t p) { return bodies[static_cast<std::size_t>(owner[p])].x; };
     scene alone = s; // the same contacts of pebbles that are bodies themselves
     evaluate_all(alone, 0, 70);
@@ -253,7 +254,7 @@ TEST_CASE("a law is given both curvatures and masses and the relative rotation, 
         list.pairs = {{0, 1}, {0, 2}};
         list.resize(), list.rows.resize(2);
         std::vector<contact_load<>> loads(2);
-        evaluate(list, {0, 2}, sphere_view{pebbles.data()}, told{reach}, h, told_job{list, loads});
+        evaluate(list, {0, 2}, sphere_view{pebbles.data(), nullptr}, told{reach}, h, told_job{list, loads});
         CHECK(list.rows[0].force.x == Approx(0.0075)); // 1 / (100 + 33.3)
         CHECK(list.rows[0].force.y == Approx(1.0 / 16.0));
         CHECK(list.rows[0].force.z == Approx(5e-4));

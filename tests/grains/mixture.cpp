@@ -69,6 +69,14 @@ TEST_CASE("a grading gives all shapes of a mixture its sizes, whatever size they
     }
 }
 
+TEST_CASE("shares are those of the mass: a rock of half the density fills twice the room") {
+    mixture m({{shapes::sphere(0.01), 1.0, 0, 1.0}, {shapes::tetrahedron_4(0.01), 1.0, 1, 0.5}});
+    double of_part[2] = {};
+    for (const mixture_grain& g : m.grains_of(3e-4)) of_part[g.part] += m.volume(g);
+    CHECK(of_part[0] == Approx(1e-4).epsilon(5e-3));
+    CHECK(of_part[1] == Approx(2e-4).epsilon(5e-3));
+}
+
 TEST_CASE("a mixture of nothing, of empty shapes or of shares that are none is refused") {
     const auto refusal = [](const std::vector<mixture_part>& parts) -> std::string {
         try {
@@ -81,6 +89,7 @@ TEST_CASE("a mixture of nothing, of empty shapes or of shares that are none is r
     CHECK(refusal({}).find("no shape") != std::string::npos);
     CHECK(refusal({{shape{}, 1.0}}).find("a shape with pebbles") != std::string::npos);
     CHECK(refusal({{shapes::sphere(0.01), 1.0}, {shapes::tetrahedron_4(0.01), 0.0}}).find("share of shape '4B'") == 0);
+    CHECK(refusal({{shapes::sphere(0.01), 1.0, 0, 0.0}}).find("density ratio of shape 'sphere'") == 0);
     CHECK(refusal({{shapes::sphere(0.01), 1.0}}).empty());
 }
 

@@ -28,6 +28,7 @@ struct grain {
     std::int32_t cluster = is_whole; ///< number in the cluster pool of its shape once it is a cluster
     std::int32_t id = 0;             ///< its number for life; its place in the table grows as others are split
     double scale = 1.0;              ///< its size over that of its shape
+    double density_ratio = 1.0;      ///< its density over that of the specimen
 
     static constexpr std::int32_t is_whole = -1; ///< a clump
     static constexpr std::int32_t is_loose = -2; ///< balls that no bond joins
@@ -61,6 +62,8 @@ struct clumps {
     std::vector<body_motion> motion;     ///< per body
     std::vector<clump_rotation> turning; ///< per grain
     std::vector<body_losses> losses;     ///< per body
+    std::vector<std::uint8_t>
+        materials; ///< per pebble, for laws that read them; those behind its end are of material 0
 
     /// What clumps of one shape have in common, at scale 1; made with the first grain of it, so shapes and density must
     /// not change after that.
@@ -81,17 +84,17 @@ struct clumps {
     /// Number of the body that a pebble is when it moves on its own.
     std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
     double mass_of(const grain& g) const {
-        return of_shape[static_cast<std::size_t>(g.shape)].mass * (g.scale * g.scale * g.scale);
+        return of_shape[static_cast<std::size_t>(g.shape)].mass * (g.scale * g.scale * g.scale * g.density_ratio);
     }
     double diameter_of(const grain& g) const {
         return shape_of(g).diameter * g.scale;
     } ///< of its circumscribed sphere (m)
     /// Of all its pebbles (m^3).
     double volume_of(const grain& g) const { return shape_of(g).volume * (g.scale * g.scale * g.scale); }
-    double ball_mass(std::size_t p) const { return density * sphere_volume(pebbles[p].radius); }
-    double ball_inertia(std::size_t p) const { return density * sphere_inertia_per_density(pebbles[p].radius); }
+    double ball_mass(std::size_t p) const { return ball_density(p) * sphere_volume(pebbles[p].radius); }
+    double ball_inertia(std::size_t p) const { return ball_density(p) * sphere_inertia_per_density(pebbles[p].radius); }
     vec3 inverse_inertia(const grain& g) const { ///< 1/(kg m^2), body axes
-        return (1.0 / fifth_power(g.scale)) * of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
+        return (1.0 / inertia_ratio(g)) * of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
     }
     /// Of all grains (m^3): invariant under replacement.
     double solid_volume() const {
@@ -120,6 +123,16 @@ struct clumps {
         turning.push_back({q, {}});
         losses.push_back({});
         return id;
+    }
+
+    /// Makes a clump one of another material (contacts::by_material) and density, over that of the specimen (> 0). Its
+    /// spin becomes 0.
+    void set_material(std::size_t g, std::uint8_t material, double density_ratio = 1.0) {
+        materials.resize(pebbles.size(), 0);
+        for (std::size_t p = pebbles_of(g).begin; p < pebbles_of(g).end; ++p) materials[p] = material;
+        grains[g].density_ratio = density_ratio;
+        motion[g].inverse_mass = 1.0 / mass_of(grains[g]);
+        set_spin(g, {});
     }
 
     /// A clump becomes several, in the same place and with the same motion: momentum, angular momentum and kinetic
@@ -157,8 +170,8 @@ struct clumps {
                 angular += ball_mass(p) * cross(pebbles[p].x - centre, one.v) + ball_inertia(p) * one.w;
                 lost += 0.5 * (ball_mass(p) * norm2(one.v) + ball_inertia(p) * norm2(one.w));
             }
-            const double mass = density * form.volume;
-            const vec3 i = density * form.inertia_per_density, inverse{1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
+            const double rho = ball_density(first), mass = rho * form.volume;
+            const vec3 i = rho * form.inertia_per_density, inverse{1.0 / i.x, 1.0 / i.y, 1.0 / i.z};
             turned.push_back({form.to_input_frame, angular});
             moved.push_back({centre, momentum / mass, spin_of(form.to_input_frame, angular, inverse), 1.0 / mass});
             lost -= 0.5 * norm2(momentum) / mass + rotational_energy(form.to_input_frame, angular, inverse);
@@ -184,7 +197,7 @@ struct clumps {
     std::size_t body_of(std::int32_t pebble) const {
         return static_cast<std::size_t>(owner[static_cast<std::size_t>(pebble)]);
     }
-    clump_view view() const { return {pebbles.data(), owner.data(), motion.data()}; }
+    clump_view view() const { return {pebbles.data(), owner.data(), motion.data(), materials.data()}; }
     /// Of the centre of a pebble of a clump, or of a ball (m/s).
     vec3 velocity_of(std::int32_t pebble) const {
         const std::size_t b = body_of(pebble);
@@ -292,13 +305,19 @@ struct clumps {
     }
 
     template <class A> void archive(A& a) {
-        a(shapes, density, of_shape, grains, pebbles, mother, owner, motion, turning, losses);
+        a(shapes, density, of_shape, grains, pebbles, mother, owner, motion, turning, losses, materials);
     }
 
   private:
-    static double fifth_power(double a) { return a * a * (a * a) * a; }
+    /// Moments of inertia of a grain over those of its shape in the density of the specimen.
+    static double inertia_ratio(const grain& g) {
+        return g.scale * g.scale * (g.scale * g.scale) * g.scale * g.density_ratio;
+    }
     /// Principal moments (kg m^2).
-    vec3 inertia_of(const grain& g) const { return (density * fifth_power(g.scale)) * shape_of(g).inertia_per_density; }
+    vec3 inertia_of(const grain& g) const { return (density * inertia_ratio(g)) * shape_of(g).inertia_per_density; }
+    double ball_density(std::size_t p) const { // kg/m^3
+        return density * grains[static_cast<std::size_t>(mother[p])].density_ratio;
+    }
     /// Gives the pebbles of a grain to so many clumps of one scale in its place, whose motion is still to be set.
     void divide(std::size_t g, std::span<const clump_part> parts, double scale) {
         note_shapes();
@@ -313,7 +332,8 @@ struct clumps {
         open(grains), open(motion), open(turning), open(losses);
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
-            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id, scale};
+            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id, scale,
+                             whole.density_ratio};
             const index_range own = pebbles_of(g + k);
             for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(g + k);
         }
@@ -358,7 +378,7 @@ struct clumps {
         constexpr std::size_t block = quad_size;
         for (std::size_t k = 0; k < s.lanes(); k += 4) {
             const std::byte *load[4], *move[4], *turn[4], *then[4], *common[4];
-            double reach[4];
+            double reach[4], per_inertia[4];
             for (std::size_t l = 0; l < 4; ++l) {
                 const moving_body& one = bodies[std::min(k + l, s.size - 1)];
                 const std::size_t g = one.body;
@@ -368,6 +388,7 @@ struct clumps {
                 then[l] = bytes_of(since[g]), common[l] = bytes_of(c);
                 reach[l] = c.reach * scale;
                 s.scale[k + l] = scale;
+                per_inertia[l] = 1.0 / inertia_ratio(grains[g]);
             }
             row r[4];
             const auto each = [&r](const std::byte* const(&records)[4], std::size_t where, double* a, double* b,
@@ -386,10 +407,8 @@ struct clumps {
             each(then, block, s.cx + k, s.cy + k, s.cz + k);
             each(common, 0, s.ix + k, s.iy + k, s.iz + k);
             row(reach[0], reach[1], reach[2], reach[3]).store(s.reach + k);
-            for (std::size_t l = k; l < k + 4; ++l) {
-                const double per_inertia = 1.0 / fifth_power(s.scale[l]);
-                s.ix[l] *= per_inertia, s.iy[l] *= per_inertia, s.iz[l] *= per_inertia;
-            }
+            for (std::size_t l = 0; l < 4; ++l)
+                s.ix[k + l] *= per_inertia[l], s.iy[k + l] *= per_inertia[l], s.iz[k + l] *= per_inertia[l];
             for (std::size_t l = k; l < k + 4; ++l) s.cx[l] *= stretch.x, s.cy[l] *= stretch.y, s.cz[l] *= stretch.z;
         }
     }

@@ -52,12 +52,14 @@ static_assert(sizeof(body_motion) == 12 * sizeof(double));
 /// Spheres as contacts read them: each is a body of its own.
 struct sphere_view {
     const pebble_motion* pebbles;
+    const std::uint8_t* materials; ///< per pebble, where a law reads them
 };
 /// Pebbles of clumps as contacts read them.
 struct clump_view {
     const clump_pebble* pebbles;
     const std::int32_t* owner; ///< per pebble: its body
     const body_motion* bodies;
+    const std::uint8_t* materials; ///< per pebble, where a law reads them
 };
 
 /// What one contact exerts in this step; balls sum their rows in a fixed order. The force acts in the middle of the

@@ -28,6 +28,8 @@ struct spheres {
     double density = 2650.0; ///< kg/m^3
     std::vector<pebble_motion> pebbles;
     std::vector<body_losses> losses;
+    std::vector<std::uint8_t>
+        materials; ///< per sphere, for laws that read them; those behind its end are of material 0
 
     static constexpr bool turns = false;
     struct reference {
@@ -57,6 +59,14 @@ struct spheres {
     std::int32_t add(double radius, const vec3& centre, const quaternion&, double scale = 1.0) {
         return add(centre, scale * radius);
     }
+    /// As for clumps.
+    void set_material(std::size_t b, std::uint8_t material, double density_ratio = 1.0) {
+        materials.resize(pebbles.size(), 0);
+        materials[b] = material;
+        const double rho = density_ratio * density;
+        pebbles[b].inverse_mass = 1.0 / (rho * sphere_volume(pebbles[b].radius));
+        pebbles[b].inverse_inertia = 1.0 / (rho * sphere_inertia_per_density(pebbles[b].radius));
+    }
     std::size_t pebble_count() const { return pebbles.size(); }
     std::size_t grain_count() const { return pebbles.size(); }
     static constexpr std::int32_t number_of(std::size_t g) { return static_cast<std::int32_t>(g); }
@@ -71,7 +81,7 @@ struct spheres {
     static constexpr bool is_swept(std::size_t) { return true; }
     static constexpr std::size_t body_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
     static constexpr std::size_t group_of(std::int32_t pebble) { return static_cast<std::size_t>(pebble); }
-    sphere_view view() const { return {pebbles.data()}; }
+    sphere_view view() const { return {pebbles.data(), materials.data()}; }
     const vec3& velocity_of(std::int32_t pebble) const { return pebbles[static_cast<std::size_t>(pebble)].v; }
     const vec3& spin_of_pebble(std::int32_t pebble) const { return pebbles[body_of(pebble)].w; }
     double inverse_mass_of(std::int32_t pebble) const { return pebbles[body_of(pebble)].inverse_mass; }
@@ -118,7 +128,7 @@ struct spheres {
         return 1.0 / most;
     }
 
-    template <class A> void archive(A& a) { a(density, pebbles, losses); }
+    template <class A> void archive(A& a) { a(density, pebbles, losses, materials); }
 
   private:
     /// In whole records of four numbers where the scheme takes them, else in vectors.

@@ -51,10 +51,10 @@ inline bool told_before(const break_report& a, const break_report& b) {
 /// pack() puts clusters that have about the same bonds left together, for a bond that is broken in all lanes costs
 /// nothing.
 ///
-/// A cluster of `scale` times the size of the shape is computed as one of the shape's own size that is similar to it:
-/// with lengths over scale, forces over scale^4, moments and energies over scale^5, masses and times as they are, it
-/// obeys the same equations, but for stiffnesses (the factor is `alive` in a lane) and strengths. So sizes cost nothing
-/// in the loops.
+/// A cluster of another size or density than the lattice (likeness) is computed as one of the lattice's own that is
+/// similar to it: with lengths over scale, forces over scale^4 density, moments and energies over scale^5 density,
+/// masses and times as they are, it obeys the same equations, but for stiffnesses (the factor is `alive` in a lane) and
+/// strengths. So sizes cost nothing in the loops.
 ///
 /// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with leapfrog
 /// steps small enough for the stiffest mode of the intact shape at its scale (removing bonds only lowers it).
@@ -79,19 +79,19 @@ class cluster_pool {
     }
     std::size_t bonds() const { return shape_.ends.size(); }
 
-    /// Adds a cluster with the given bond states, the strength of its bonds over the material's, and its size over that
-    /// of the shape (both > 0); returns its number.
-    std::size_t add(const std::vector<state>& born, double strength = 1.0, double scale = 1.0) {
+    /// Adds a cluster with the given bond states, the strength of its bonds over the material's (> 0), and what it is
+    /// like; returns its number.
+    std::size_t add(const std::vector<state>& born, double strength = 1.0, likeness to = {}) {
         const std::size_t c = size_++, seat = sitting_.size(); // behind all others
         seat_.push_back(static_cast<std::int32_t>(seat));
         sitting_.push_back(static_cast<std::int32_t>(c));
         make_room();
         occupied_ = sitting_.size();
-        scale_[seat] = scale;
-        strength_[seat] = strength / (scale * scale);
-        const double stiffness = stiffness_at(scale);
+        like_[seat] = to;
+        strength_[seat] = strength / (to.scale * to.scale * to.density);
+        const double stiffness = stiffness_of(to);
         for (std::size_t b = 0; b < bonds(); ++b) {
-            put(seat, b, scaled(born[b], 1.0 / scale));
+            put(seat, b, scaled(born[b], {1.0 / to.scale, 1.0 / to.density}));
             value(seat, b, alive) = stiffness;
         }
         intact_[seat] = static_cast<std::int32_t>(bonds());
@@ -116,7 +116,7 @@ class cluster_pool {
         std::iota(order.begin(), order.end(), 0);
         std::vector<int> rank(size_); // of classes; those without bonds come last
         for (std::size_t c = 0; c < size_; ++c)
-            rank[c] = intact_[seat_of(c)] == 0 ? std::numeric_limits<int>::max() : class_of(scale_[seat_of(c)]);
+            rank[c] = intact_[seat_of(c)] == 0 ? std::numeric_limits<int>::max() : class_of(like_[seat_of(c)]);
         const auto rank_of = [&rank](std::int32_t c) { return rank[static_cast<std::size_t>(c)]; };
         std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
             const std::size_t i = seat_of(a), j = seat_of(b);
@@ -138,27 +138,28 @@ class cluster_pool {
 
     bool is_intact(std::size_t cluster, std::size_t bond) const { return is_alive(seat_of(cluster), bond); }
     std::int32_t intact_bonds(std::size_t cluster) const { return intact_[seat_of(cluster)]; }
-    double scale(std::size_t cluster) const { return scale_[seat_of(cluster)]; }
+    likeness like(std::size_t cluster) const { return like_[seat_of(cluster)]; }
     state get(std::size_t cluster, std::size_t bond) const {
-        return scaled(carried(seat_of(cluster), bond), scale(cluster));
+        return scaled(carried(seat_of(cluster), bond), like(cluster));
     }
     /// Elastic energy in the bonds of a cluster (J).
     double energy(std::size_t cluster) const {
         double e = 0.0;
         for (std::size_t b = 0; b < bonds(); ++b)
             if (is_intact(cluster, b)) e += bonds::energy(shape_.bond[b], carried(seat_of(cluster), b));
-        return fifth_power(scale(cluster)) / stiffness_at(scale(cluster)) * e;
+        return energy_ratio(like(cluster)) / stiffness_of(like(cluster)) * e;
     }
     /// Elastic energy (J) of one bond of a cluster in a state.
     double energy_of(std::size_t cluster, std::size_t bond, const state& s) const {
-        const double k = scale(cluster);
-        return fifth_power(k) / stiffness_at(k) * bonds::energy(shape_.bond[bond], scaled(s, 1.0 / k));
+        const likeness to = like(cluster);
+        return energy_ratio(to) / stiffness_of(to) *
+               bonds::energy(shape_.bond[bond], scaled(s, {1.0 / to.scale, 1.0 / to.density}));
     }
 
-    /// Number of inner steps for an outer step (s) of a cluster of a scale: its highest mode turns by at most 1 rad per
+    /// Number of inner steps for an outer step (s) of a cluster: its highest mode turns by at most 1 rad per
     /// inner step. Local damping a stiffens a mode by up to (1 + a), so the leapfrog limit of 2 rad shrinks to 1.53 at
     /// a = 0.7; the rest is margin.
-    int substeps(double dt, double scale = 1.0) const { return substeps_of(dt, class_of(scale)); }
+    int substeps(double dt, likeness to = {}) const { return substeps_of(dt, class_of(to)); }
 
     /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes,
     /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved. Normals are those of the middle
@@ -192,8 +193,8 @@ class cluster_pool {
         };
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
-            const double per_length = 1.0 / scale_[batch * lanes + l];
-            const double per_force = per_length * per_length * per_length * per_length;
+            const likeness& to = like_[batch * lanes + l];
+            const double per_length = 1.0 / to.scale, per_force = 1.0 / force_ratio(to);
             for (std::size_t i = 0; i < n; ++i) {
                 const ball_motion& ball = balls[l * n + i];
                 const pebble_load& external = load[l * n + i];
@@ -232,8 +233,8 @@ class cluster_pool {
         for (std::size_t k = 0; k < vectors; ++k) u[k] -= 0.5 * h * v[k];
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
-            const double length = scale_[batch * lanes + l];
-            dissipated[l] *= fifth_power(length);
+            const double length = like_[batch * lanes + l].scale;
+            dissipated[l] *= energy_ratio(like_[batch * lanes + l]);
             for (std::size_t i = 0; i < n; ++i)
                 for (int a = 0; a < 3; ++a) {
                     const std::size_t k = at(i, static_cast<std::size_t>(a), l);
@@ -250,7 +251,7 @@ class cluster_pool {
         std::vector<std::int32_t> numbers(size_);
         std::iota(numbers.begin(), numbers.end(), 0);
         seat(numbers);
-        a(size_, values_, intact_, strength_, scale_);
+        a(size_, values_, intact_, strength_, like_);
         seat_.resize(size_);
         std::iota(seat_.begin(), seat_.end(), 0);
         sitting_ = seat_;
@@ -263,25 +264,27 @@ class cluster_pool {
     enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
     static constexpr std::int32_t nobody = -1;
 
-    static double fifth_power(double a) { return a * a * (a * a) * a; }
-    /// A state in a cluster that is `by` times as large and similar.
-    static state scaled(const state& s, double by) {
-        const double force = by * by * (by * by), moment = force * by;
+    /// Forces and energies of a cluster over those of the similar one.
+    static double force_ratio(const likeness& to) { return to.scale * to.scale * (to.scale * to.scale) * to.density; }
+    static double energy_ratio(const likeness& to) { return force_ratio(to) * to.scale; }
+    /// What is a state in the similar cluster, or the other way round.
+    static state scaled(const state& s, const likeness& to) {
+        const double force = force_ratio(to), moment = energy_ratio(to);
         return {force * s.n, force * s.v, moment * s.mt, moment * s.mb};
     }
-    /// Stiffness of the bonds of a similar cluster of the shape's own size, over that of the shape: what is k in a
-    /// cluster of a scale is k / scale^3 there, and k grows by a power of the scale.
-    double stiffness_at(double scale) const {
-        double k = 1.0 / (scale * scale * scale);
-        for (int p = 0; p < shape_.stiffness_power; ++p) k *= scale;
+    /// Stiffness of bonds in the similar cluster over that of the lattice: what is k is k / (scale^3 density) there,
+    /// and k grows by a power of the scale.
+    double stiffness_of(const likeness& to) const {
+        double k = 1.0 / (to.scale * to.scale * to.scale * to.density);
+        for (int p = 0; p < shape_.stiffness_power; ++p) k *= to.scale;
         return k;
     }
-    /// Class of frequencies: quarters of an octave above that of scale 1, rounded up.
-    int class_of(double scale) const { return static_cast<int>(std::ceil(2.0 * std::log2(stiffness_at(scale)))); }
+    /// Class of frequencies: quarters of an octave above that of the lattice, rounded up.
+    int class_of(const likeness& to) const { return static_cast<int>(std::ceil(2.0 * std::log2(stiffness_of(to)))); }
     int class_of_batch(std::size_t batch) const {
         int most = std::numeric_limits<int>::min();
         for (std::size_t l = 0; l < lanes; ++l)
-            if (living(batch, l) >= 0) most = std::max(most, class_of(scale_[batch * lanes + l]));
+            if (living(batch, l) >= 0) most = std::max(most, class_of(like_[batch * lanes + l]));
         return most;
     }
     int substeps_of(double dt, int of_class) const {
@@ -294,7 +297,7 @@ class cluster_pool {
         values_.resize(seats * bonds() * fields, 0.0);
         intact_.resize(seats, 0);
         strength_.resize(seats, 1.0);
-        scale_.resize(seats, 1.0);
+        like_.resize(seats);
     }
     std::size_t base(std::size_t batch, std::size_t bond) const { return (batch * bonds() + bond) * fields * lanes; }
     std::size_t place(std::size_t seat, std::size_t b, std::size_t f) const {
@@ -308,8 +311,8 @@ class cluster_pool {
     /// Clusters take seats 0, 1, ... in this order; those of nobody stay empty.
     void seat(const std::vector<std::int32_t>& order) {
         if (order == sitting_) return;
-        const auto values = std::exchange(values_, {}), strength = std::exchange(strength_, {}),
-                   scales = std::exchange(scale_, {});
+        const auto values = std::exchange(values_, {}), strength = std::exchange(strength_, {});
+        const auto like = std::exchange(like_, {});
         const auto intact = std::exchange(intact_, {});
         const auto seats = seat_;
         sitting_ = order;
@@ -319,7 +322,7 @@ class cluster_pool {
             const auto from = static_cast<std::size_t>(seats[static_cast<std::size_t>(order[to])]);
             intact_[to] = intact[from];
             strength_[to] = strength[from];
-            scale_[to] = scales[from];
+            like_[to] = like[from];
             for (std::size_t b = 0; b < bonds(); ++b)
                 for (std::size_t f = 0; f < fields; ++f) value(to, b, f) = values[place(from, b, f)];
             seat_[static_cast<std::size_t>(order[to])] = static_cast<std::int32_t>(to);
@@ -451,7 +454,7 @@ class cluster_pool {
                     t[end_b(b) * 3 * lanes + k] -= wr.moment_b[a];
                 }
                 broken.push_back({sitting_[c], static_cast<std::int32_t>(b),
-                                  fails.tension ? break_mode::tension : break_mode::shear, scaled(s, scale_[c]), step});
+                                  fails.tension ? break_mode::tension : break_mode::shear, scaled(s, like_[c]), step});
                 put(c, b, {});
                 value(c, b, alive) = 0.0;
                 --intact_[c];
@@ -464,7 +467,7 @@ class cluster_pool {
     std::vector<double> values_;        ///< [batch][bond][field][lane]
     std::vector<std::int32_t> intact_;  ///< per seat
     std::vector<double> strength_;      ///< per seat, over that of the material, in the similar cluster
-    std::vector<double> scale_;         ///< per seat: size over that of the shape
+    std::vector<likeness> like_;        ///< per seat
     std::vector<std::int32_t> seat_;    ///< per cluster: lane seat % 8 of batch seat / 8
     std::vector<std::int32_t> sitting_; ///< per seat: who sits there
     std::size_t occupied_ = 0;          ///< clusters behind have no bonds

@@ -24,6 +24,12 @@ struct bond_arms {
     double b;
 };
 
+/// How a cluster differs from its shape in the material of the lattice: ratios, > 0.
+struct likeness {
+    double scale = 1.0;   ///< of sizes
+    double density = 1.0; ///< of densities
+};
+
 /// A shape held together by parallel bonds, in its body frame, at scale 1. Made once per shape and material; grains of
 /// every size share it.
 struct lattice {
@@ -118,12 +124,12 @@ struct lattice {
 
     /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes)
     /// while it moves as a rigid body: the loads less the d'Alembert forces of the rigid motion, K u = f solved with
-    /// minimum norm. `spin` is the angular velocity (rad/s); scale: size of the cluster over that of the shape.
-    std::vector<state> statics(std::vector<pebble_load> load, const quaternion& q, vec3 spin,
-                               double scale = 1.0) const {
+    /// minimum norm. `spin` is the angular velocity (rad/s).
+    std::vector<state> statics(std::vector<pebble_load> load, const quaternion& q, vec3 spin, likeness to = {}) const {
         // a cluster of the shape's own size under these moments is similar: all forces and masses' accelerations agree
+        const double scale = to.scale;
         for (pebble_load& one : load) one.moment = (1.0 / scale) * one.moment;
-        spin = (scale * scale) * spin;
+        spin = (scale * scale * std::sqrt(to.density)) * spin;
         const std::size_t n = size();
         // rigid motion under the loads
         vec3 force, moment;

@@ -149,8 +149,7 @@ struct wall_row {
 
     /// Force (N) along the normal of one of its touches: lateral facets share by their parts of the way out.
     double share(const boundaries::touch& t) const {
-        return t.at_platen() ? platen[t.platen()]
-                             : lateral * t.depth / norm(lateral_push(touch));
+        return t.at_platen() ? platen[t.platen()] : lateral * t.depth / norm(lateral_push(touch));
     }
     template <class A> void archive(A& a) { a(pebble); } // the rest is written anew by the next step
 };

@@ -16,6 +16,8 @@ template <class T> struct overlap {
     T curvature_j;      ///< (1/m); a wall's is 0
     T inverse_mass_i{}; ///< of the body of i (1/kg): the clump, or the ball
     T inverse_mass_j{}; ///< (1/kg); a wall's is 0
+    /// Materials of i and j by their numbers, for laws that read them; -1: not known, or a wall.
+    T material_i{-1}, material_j{-1};
 
     /// R of Hertz' theory, 1/R = 1/R_i + 1/R_j (m).
     constexpr T reduced_radius() const { return 1.0 / (curvature_i + curvature_j); }
@@ -59,6 +61,7 @@ template <class T> struct wrench : response<T> {
 /// - `static constexpr bool constant_stiffness = true`: stiffnesses do not depend on the overlap; the estimate is
 ///   cheaper then;
 /// - `static constexpr bool uses_masses = false`: it reads no mass, so none is gathered for it;
+/// - `static constexpr bool reads_materials = true`: it reads materials, so they are gathered for it;
 /// - `double rolling_stiffness(o) const` and `twisting_stiffness(o)` (N m): of moments that resist a relative rotation;
 /// - `double reach() const`: how far beyond touch two pebbles feel each other (m), >= 0; at walls it acts on touch.
 template <class L>
@@ -94,6 +97,11 @@ template <class L> constexpr double reach_of([[maybe_unused]] const L& law) {
 template <class L> constexpr bool reads_masses() {
     if constexpr (requires { L::uses_masses; }) return L::uses_masses;
     return true;
+}
+/// Whether materials are gathered for a law.
+template <class L> constexpr bool reads_materials() {
+    if constexpr (requires { L::reads_materials; }) return L::reads_materials;
+    return false;
 }
 /// Whether its stiffnesses are the same at any overlap.
 template <class L> constexpr bool is_of_constant_stiffness() {

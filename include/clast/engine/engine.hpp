@@ -151,6 +151,7 @@ template <class P> class engine : private scene<P> {
         scene_type& s = own();
         check(settings, grains.density);
         if constexpr (scene_type::replaces) rooms::refuse_overlapping(grains);
+        if constexpr (contacts::reads_materials<contact>()) grains.materials.resize(grains.pebble_count(), 0);
         s.broken.begin(grains, settings);
         s.memory.resize(grains.body_count());
         s.replacing.begin(grains.grain_count());

@@ -32,7 +32,7 @@ template <class S> class grain_view {
         return neighbours_of(s_, g_, [](const acting_force&) {}).size();
     }
     const clast::shape& shape() const { return s_.grains.shape_of(one()); }
-    double scale() const { return one().scale; }
+    bonds::likeness like() const { return {one().scale, one().density_ratio}; }
     const bonds::lattice& lattice() const requires S::breakable { return s_.broken.pools[s_.at(one().shape)].shape(); }
     const vec3& centre() const { return s_.grains.motion[g_].x; }
     const vec3& velocity() const { return s_.grains.motion[g_].v; }

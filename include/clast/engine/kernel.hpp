@@ -34,9 +34,11 @@ template <contacts::contact_law Law, class View> struct strip {
     static constexpr std::size_t length = blocks * lanes;
     static constexpr bool has_arms = std::is_same_v<View, clump_view>;
     static constexpr bool has_masses = contacts::reads_masses<Law>();
+    static constexpr bool has_materials = contacts::reads_materials<Law>();
     using row = double[length];
     using arm_row = double[has_arms ? length : 1];
     using mass_row = double[has_masses ? length : 1];
+    using material_row = double[has_materials ? length : 1];
 
     pebble_pair bodies[length];       ///< numbers of the bodies of i and j, in this order
     alignas(64) row dx, dy, dz;       ///< x_j - x_i (m)
@@ -58,6 +60,7 @@ template <contacts::contact_law Law, class View> struct strip {
     /// Inverse masses of the bodies (1/kg), for laws that read them. Last: a short array among the rows would shift
     /// those behind it across cache lines, which takes 6 % of a step of clumps.
     mass_row mass_i, mass_j;
+    material_row material_i, material_j; ///< their numbers
 };
 
 /// The strip that contacts of a scene are worked on in.
@@ -115,6 +118,8 @@ template <std::size_t N, class Law, class View>
                 bi[l] = pi[l], bj[l] = pj[l];
                 s.bodies[k + l] = p;
             }
+            if constexpr (strip<Law, View>::has_materials)
+                s.material_i[k + l] = from.materials[p.i], s.material_j[k + l] = from.materials[p.j];
         }
         row i[4], j[4];
         row::load(pi, centre, i), row::load(pj, centre, j), difference(i, j, s.dx + k, s.dy + k, s.dz + k);
@@ -189,6 +194,8 @@ template <bool InPairs, bool Ahead, class Law, class View>
     contacts::overlap<double> between{normal.x, normal.y, normal.z, overlap, 1.0 / s.radius_i[k], 1.0 / s.radius_j[k]};
     if constexpr (strip<Law, View>::has_masses)
         between.inverse_mass_i = s.mass_i[k], between.inverse_mass_j = s.mass_j[k];
+    if constexpr (strip<Law, View>::has_materials)
+        between.material_i = s.material_i[k], between.material_j = s.material_j[k];
     const auto answer = law(between,
                             contacts::motion<double>{u.x, u.y, u.z, spin, dot(relative, normal), mid.x, mid.y, mid.z,
                                                      reflect, rolled.x, rolled.y, rolled.z},

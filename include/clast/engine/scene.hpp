@@ -185,7 +185,14 @@ template <simulator_policies P> struct scene {
                 1.0 / radius(p.i),
                 1.0 / radius(p.j),
                 grains.inverse_mass_of(p.i),
-                grains.inverse_mass_of(p.j)};
+                grains.inverse_mass_of(p.j),
+                material(p.i),
+                material(p.j)};
+    }
+    /// Of a pebble, by its number; -1 where the law reads none.
+    double material([[maybe_unused]] std::int32_t pebble) const {
+        if constexpr (contacts::reads_materials<contact>()) return grains.materials[at(pebble)];
+        return -1.0;
     }
     /// Two of the smallest pebbles, of bodies of the smallest mass.
     contacts::overlap<double> typical_overlap(double depth) const {
@@ -194,7 +201,7 @@ template <simulator_policies P> struct scene {
     }
     /// The same for a pebble at a wall.
     contacts::overlap<double> overlap_at_wall(std::int32_t pebble, double depth) const {
-        return {0, 0, 1, depth, 1.0 / radius(pebble), 0.0, grains.inverse_mass_of(pebble), 0.0};
+        return {0, 0, 1, depth, 1.0 / radius(pebble), 0.0, grains.inverse_mass_of(pebble), 0.0, material(pebble), -1.0};
     }
     /// Whether a wall has friction.
     bool walls_rub() const {

@@ -144,7 +144,7 @@ template <class S> void surgery<S>::bond(std::int32_t number, const std::vector<
         b.bonded[p] = 1;
         b.fragment[p] = one.first; // a shape with bonds is one piece
     }
-    one.cluster = static_cast<std::int32_t>(pool.add(born, strength, one.scale));
+    one.cluster = static_cast<std::int32_t>(pool.add(born, strength, {one.scale, one.density_ratio}));
     b.members[s_.at(one.shape)].push_back(number);
     s_.totals.bond_dissipation -= pool.energy(s_.at(one.cluster)); // born with energy that no one paid for
 }
@@ -185,9 +185,8 @@ double surgery<S>::energy_within(std::int32_t number, std::span<const replacemen
         return -1;
     };
     const auto stored = [&](const pebble_pair& p, const typename S::history& h) {
-        const double ri = s_.radius(p.i), rj = s_.radius(p.j);
-        const double depth = ri + rj - norm(s_.position(p.j) - s_.position(p.i));
-        return s_.settings.grain_contact.stored({0, 0, 1, depth, ri, rj}, h);
+        const double depth = s_.radius(p.i) + s_.radius(p.j) - norm(s_.position(p.j) - s_.position(p.i));
+        return s_.settings.grain_contact.stored(s_.overlap_of(p, depth), h);
     };
     double e = g.cluster >= 0 ? s_.broken.pools[s_.at(g.shape)].energy(s_.at(g.cluster)) : 0.0;
     for (std::size_t k = 0; k < s_.light.size(); ++k) {

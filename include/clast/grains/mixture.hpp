@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,10 +19,12 @@
 
 namespace clast {
 
-/// A shape of a mixture, and its share of the mass.
+/// A shape of a mixture, its share of the mass, and of which rock it is.
 struct mixture_part {
     shape form;
-    double share = 1.0; ///< > 0; shares of a mixture count in their sum
+    double share = 1.0;         ///< > 0; shares of a mixture count in their sum
+    std::uint8_t material = 0;  ///< number of the rock, for contacts::by_material
+    double density_ratio = 1.0; ///< of its density over that of the specimen, > 0
 };
 
 /// A grain of a mixture that has no place yet.
@@ -53,6 +56,9 @@ class mixture {
             if (!(p.share > 0.0 && std::isfinite(p.share)))
                 throw input_error("share of shape '" + p.form.name + "'", fmt::format("{:g}", p.share),
                                   "above 0, finite", "Leave a shape out that has no share.");
+            if (!(p.density_ratio > 0.0 && std::isfinite(p.density_ratio)))
+                throw input_error("density ratio of shape '" + p.form.name + "'", fmt::format("{:g}", p.density_ratio),
+                                  "above 0, finite", "1 is the density of the specimen.");
             sum += p.share;
         }
         for (mixture_part& p : parts_) p.share /= sum;
@@ -87,10 +93,12 @@ class mixture {
     /// Grains that have a volume of pebbles (m^3) among them, from the largest to the smallest: as near as whole grains
     /// get to it, to the shares of shapes and to the grading (grading::sizes).
     std::vector<mixture_grain> grains_of(double volume) const {
+        double lightness = 0.0; // volume of a unit of mass: lighter rocks fill more room
+        for (const mixture_part& p : parts_) lightness += p.share / p.density_ratio;
         std::vector<mixture_grain> all;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const shape& s = parts_[k].form;
-            const double own = parts_[k].share * volume;
+            const double own = parts_[k].share / parts_[k].density_ratio / lightness * volume;
             if (sizes_.empty()) {
                 all.insert(all.end(), static_cast<std::size_t>(std::llround(own / s.volume)), {k, 1.0});
             } else {

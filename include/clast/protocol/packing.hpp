@@ -200,7 +200,13 @@ std::vector<placed_grain> cloud_of(const Body& s, const mixture& of, const std::
 template <bodies::specimen Body> void add(Body& s, const mixture& of, const std::vector<placed_grain>& grains) {
     std::vector<decltype(s.kind_of(of.parts().front().form))> kinds;
     for (const mixture_part& p : of.parts()) kinds.push_back(s.kind_of(p.form));
-    for (const placed_grain& g : grains) s.add(kinds[g.part], g.centre, g.q, g.scale);
+    const bool one_rock = std::all_of(of.parts().begin(), of.parts().end(),
+                                      [](const mixture_part& p) { return p.material == 0 && p.density_ratio == 1.0; });
+    for (const placed_grain& g : grains) {
+        const auto b = static_cast<std::size_t>(s.add(kinds[g.part], g.centre, g.q, g.scale));
+        const mixture_part& part = of.parts()[g.part];
+        if (!one_rock) s.set_material(b, part.material, part.density_ratio);
+    }
 }
 
 /// Pebbles of grains in their places, with the numbers of the grains. Throws input_error with the number of the grain

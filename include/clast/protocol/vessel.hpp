@@ -109,6 +109,7 @@ template <class S> struct specimen {
         bodies::specimen<S>, std::default_initializable<S>, requires(S& s) { s.density = 1.0; },
         requires(S& s, const shape& grain) { s.kind_of(grain); },
         requires(S& s, const shape& grain) { s.add(s.kind_of(grain), vec3{}, quaternion{}, 1.0); },
+        requires(S& s) { s.set_material(std::size_t{}, std::uint8_t{}, 1.0); },
         requires(const S& c) { c.grain_count(); }, requires(const S& c) { c.solid_volume(); });
     static_assert(missing != 1, "policy body of the bundle is no specimen of a test, it lacks a default constructor "
                                 "(clast/bodies/concepts.hpp)");
@@ -118,11 +119,13 @@ template <class S> struct specimen {
                                 "(clast/bodies/concepts.hpp)");
     static_assert(missing != 4, "policy body of the bundle is no specimen of a test, it lacks `add(kind, centre, "
                                 "orientation, scale)` (clast/bodies/concepts.hpp)");
-    static_assert(missing != 5, "policy body of the bundle is no specimen of a test, it lacks `grain_count() const` "
+    static_assert(missing != 5, "policy body of the bundle is no specimen of a test, it lacks `set_material(body, "
+                                "material, density_ratio)` (clast/bodies/concepts.hpp)");
+    static_assert(missing != 6, "policy body of the bundle is no specimen of a test, it lacks `grain_count() const` "
                                 "(clast/bodies/concepts.hpp)");
-    static_assert(missing != 6, "policy body of the bundle is no specimen of a test, it lacks `solid_volume() const` "
+    static_assert(missing != 7, "policy body of the bundle is no specimen of a test, it lacks `solid_volume() const` "
                                 "(clast/bodies/concepts.hpp)");
-    static_assert(missing != 7, "policy body of the bundle is no specimen of a test, it answers with other types "
+    static_assert(missing != 8, "policy body of the bundle is no specimen of a test, it answers with other types "
                                 "(clast/bodies/concepts.hpp)");
 };
 

@@ -52,8 +52,8 @@ template <class State> struct view_archetype {
     std::vector<bonds::pebble_load> pebble_loads() const; ///< per pebble: force (N), moment about its centre (N m)
     std::size_t neighbours() const;                       ///< bodies and facets that touch it
     const clast::shape& shape() const;
-    double scale() const;                  ///< its size over that of its shape
-    const bonds::lattice& lattice() const; ///< the bonds of its shape, at scale 1; only where `makes_bonds`
+    bonds::likeness like() const;          ///< its size over that of its shape, its density over the specimen's
+    const bonds::lattice& lattice() const; ///< the bonds of its shape, at ratios of 1; only where `makes_bonds`
     const vec3& centre() const;            ///< mass centre (m)
     const vec3& velocity() const;          ///< m/s
     const vec3& spin() const;              ///< rad/s, world axes

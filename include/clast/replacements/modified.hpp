@@ -34,19 +34,18 @@ struct modified {
     int check_interval = 10; ///< steps between looks at the criterion, >= 1
     birth how = birth::warm_start;
 
-    /// Bond states (world axes) for a cluster of a scale under these loads on its pebbles, with orientation q and spin
-    /// w (rad/s).
+    /// Bond states (world axes) for a cluster under these loads on its pebbles, with orientation q and spin w (rad/s).
     std::vector<bonds::state> born(const bonds::lattice& lattice, const std::vector<bonds::pebble_load>& load,
-                                   const quaternion& q, const vec3& w, double scale = 1.0) const {
+                                   const quaternion& q, const vec3& w, bonds::likeness like = {}) const {
         if (how == birth::zero_force) return std::vector<bonds::state>(lattice.ends.size());
-        return lattice.statics(load, q, w, scale);
+        return lattice.statics(load, q, w, like);
     }
 
     int looks_every() const { return check_interval; }
     /// A clump at its trigger whose shape has bonds: they are solved for its present load.
     template <class View> std::optional<plan> wants(const View& clump) const {
         if (clump.shape().bonds.empty() || !(clump.utilisation() >= trigger)) return std::nullopt;
-        return plan{born(clump.lattice(), clump.pebble_loads(), clump.orientation(), clump.spin(), clump.scale())};
+        return plan{born(clump.lattice(), clump.pebble_loads(), clump.orientation(), clump.spin(), clump.like())};
     }
     /// Balls in the place of the clump, joined by bonds as strong or weak as the clump was among its like.
     template <class Surgery> void act(std::int32_t grain, const plan& p, Surgery& surgery) const {
