@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost of bonds: steps of a pool of clusters that ring on under no load, by number of clusters, shape and inner steps.
+// Cost of bonds: steps of a pool of clusters that ring on under no load, by number of clusters, shape, inner steps of
+// the smallest, and number of different sizes (from 1 to 3). A bond counts once for each inner step of its own cluster.
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -22,7 +23,13 @@ void cluster_step(benchmark::State& state) {
     cement.tensile_strength = cement.cohesion = 1e30;
     bonds::cluster_pool pool(bonds::lattice(kind, cement, 2650.0), 0.0);
     const std::vector<bonds::state> unloaded(pool.bonds());
-    for (std::size_t c = 0; c < clusters; ++c) pool.add(unloaded);
+    const auto sizes = static_cast<std::size_t>(state.range(3));
+    const auto like = [&](std::size_t c) {
+        const double share = sizes > 1 ? static_cast<double>(c % sizes) / static_cast<double>(sizes - 1) : 0.0;
+        return bonds::likeness{1.0 + 2.0 * share};
+    };
+    for (std::size_t c = 0; c < clusters; ++c) pool.add(unloaded, 1.0, like(c));
+    pool.pack();
 
     const std::size_t balls_per_batch = pool.lanes * pool.shape().size();
     std::vector<bonds::ball_motion> balls(pool.batches() * balls_per_batch);
@@ -40,13 +47,15 @@ void cluster_step(benchmark::State& state) {
             pool.advance(b, dt, std::span(balls).subspan(b * balls_per_batch, balls_per_batch), load, moved, broken);
     benchmark::DoNotOptimize(moved.data());
     if (!broken.empty()) state.SkipWithError("a bond broke");
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(clusters * pool.bonds()) *
-                            pool.substeps(dt));
+    std::int64_t steps = 0;
+    for (std::size_t c = 0; c < clusters; ++c) steps += pool.substeps(dt, like(c));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pool.bonds()) * steps);
 }
 
 BENCHMARK(cluster_step)
-    ->ArgNames({"clusters", "pebbles", "inner_steps"})
-    ->ArgsProduct({{8, 64, 512, 4'096}, {4, 14}, {1, 10}});
+    ->ArgNames({"clusters", "pebbles", "inner_steps", "sizes"})
+    ->ArgsProduct({{8, 64, 512, 4'096}, {4, 14}, {1, 10}, {1}})
+    ->ArgsProduct({{512, 4'096}, {4, 14}, {10}, {200}});
 
 } // namespace
 
