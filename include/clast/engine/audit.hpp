@@ -64,7 +64,7 @@ template <class S> double elastic_energy(const S& s) {
                                                           held.part[t.platen()].history);
         }
     };
-    add_walls(s.heavy_wall, s.heavy_grip), add_walls(s.light_wall, s.light_grip);
+    if constexpr (S::has_walls) add_walls(s.heavy_wall, s.heavy_grip), add_walls(s.light_wall, s.light_grip);
     return s.broken.add_bond_energy(e);
 }
 /// Lost to friction and damping so far (J).

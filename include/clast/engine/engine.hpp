@@ -185,8 +185,10 @@ template <class P> class engine : private scene<P> {
         scene_type& s = own();
         const double span = stage.drift * s.dt;
         rooms::advance_light_bodies(s);
-        rooms::evaluate_walls(s, s.heavy_wall, s.heavy_grip, since, 0.0);
-        rooms::control_walls(s, span);
+        if constexpr (scene_type::has_walls) {
+            rooms::evaluate_walls(s, s.heavy_wall, s.heavy_grip, since, 0.0);
+            rooms::control_walls(s, span);
+        }
         const bool space_looks = space.looks(s.totals.steps, keep_rows, last_of_many);
         const bool criterion_looks = rooms::looks_at_clumps(s);
         if (criterion_looks) s.index_heavy();

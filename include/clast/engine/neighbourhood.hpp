@@ -175,7 +175,7 @@ template <class S> void search(S& s) {
     wide.light = std::move(found.light);
     s.broken.put_asleep(s.grains, wide.light.pairs, s.asleep); // what a bond carries
     wide.wall.clear();
-    for (std::size_t b = 0; b < n; ++b) {
+    for (std::size_t b = 0; S::has_walls && b < n; ++b) {
         if (s.grains.is_swept(b) && !s.boundary.near(s.grains.centre(b), s.grains.bounding_radius(b) + margin))
             continue;
         const index_range own = s.grains.pebbles_of(b);
@@ -276,7 +276,9 @@ template <class S> void sort_pebbles(S& s) {
 template <class S> void choose_lists(S& s) {
     std::size_t open = 0;
     const auto& wide = s.near.wide;
-    auto heavy = chosen(s, wide.heavy, open), light = chosen(s, wide.light, open);
+    auto heavy = chosen(s, wide.heavy, open);
+    contact_list<typename S::history> light; // of balls: empty where nothing breaks
+    if constexpr (S::breakable) light = chosen(s, wide.light, open);
     const bool anew = s.near.widths.is_fresh(); // else pairs stand in the same part of the same list as before
     s.near.widths.picked(s.totals.steps, open, wide.heavy.size() + wide.light.size() - heavy.size() - light.size());
     const auto take = [&](auto& list, index_range own, const auto& old, index_range there) {
@@ -291,14 +293,16 @@ template <class S> void choose_lists(S& s) {
     };
     take(heavy, heavy.in_front(), s.heavy, s.heavy.in_front());
     take(heavy, heavy.behind(), s.heavy, s.heavy.behind());
-    take(light, light.behind(), s.light, s.light.behind());
     if (anew) {
         take(heavy, heavy.in_front(), s.heavy, s.heavy.behind());
         take(heavy, heavy.behind(), s.heavy, s.heavy.in_front());
-        take(light, light.behind(), s.heavy, s.heavy.in_front());
-        take(light, light.behind(), s.heavy, s.heavy.behind());
-        if constexpr (S::breakable) { // balls that were frozen
-            take(heavy, heavy.in_front(), s.light, s.light.behind());
+    }
+    if constexpr (S::breakable) {
+        take(light, light.behind(), s.light, s.light.behind());
+        if (anew) {
+            take(light, light.behind(), s.heavy, s.heavy.in_front());
+            take(light, light.behind(), s.heavy, s.heavy.behind());
+            take(heavy, heavy.in_front(), s.light, s.light.behind()); // balls that were frozen
             take(heavy, heavy.behind(), s.light, s.light.behind());
         }
     }
@@ -306,7 +310,7 @@ template <class S> void choose_lists(S& s) {
     s.light = std::move(light);
     s.light.rows.assign(s.light.size(), {});
 
-    choose_walls(s);
+    if constexpr (S::has_walls) choose_walls(s);
     sort_pebbles(s);
     s.broken.find_halo(s);
     s.heavy_of.reset();

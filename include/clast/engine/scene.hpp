@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,7 @@
 #include <clast/bodies/concepts.hpp>
 #include <clast/bodies/contact_list.hpp>
 #include <clast/boundaries/drive.hpp>
+#include <clast/boundaries/none.hpp>
 #include <clast/boundaries/touch.hpp>
 #include <clast/core/parallel.hpp>
 #include <clast/core/vector.hpp>
@@ -124,6 +126,7 @@ template <simulator_policies P> struct scene {
     static constexpr bool replaces = P::replacement::replaces;
     static constexpr bool breakable = replacements::makes_bonds<typename P::replacement>(); ///< has balls and bonds
     static constexpr bool has_criterion = P::breakage::evaluated;
+    static constexpr bool has_walls = !std::same_as<boundary_type, boundaries::none>; ///< else wall rows stay empty
 
     engine_settings<P> settings;
     body_type grains;
@@ -205,7 +208,7 @@ template <simulator_policies P> struct scene {
     }
     /// Whether a wall has friction.
     bool walls_rub() const {
-        if constexpr (contacts::frictional<contact> && !std::is_empty_v<history>)
+        if constexpr (has_walls && contacts::frictional<contact> && !std::is_empty_v<history>)
             return settings.platen_contact.mu > 0.0 || settings.lateral_contact.mu > 0.0;
         return false;
     }

@@ -87,7 +87,7 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
                   s.position(one.pebble) - centre + (one.side() * (s.radius(one.pebble) - 0.5 * o.depth)) * n);
             if constexpr (contacts::resists_rotation<typename S::contact>)
                 k.add_rotation(n, law.twisting_stiffness(o), law.rolling_stiffness(o));
-        } else {
+        } else if constexpr (S::has_walls) {
             const boundaries::wall_row& w = wall[r - list.size()];
             const double rp = s.radius(w.pebble);
             for (const boundaries::touch& t : w.touch)

@@ -54,15 +54,9 @@ template <class S> struct heavy_job {
         }
     }
 };
-/// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and wall
-/// rows that come next. Inlined by force: it has few instructions, and is called for every body in every step.
+/// Adds what walls do to a body: the wall rows from `wall` on that are its own.
 template <class S>
-[[gnu::always_inline]] inline load_sum complete_load(S& s, std::size_t body, std::size_t& shared, std::size_t& wall) {
-    load_sum& sum = s.acting[body];
-    for (; shared < s.heavy.shared && s.grains.body_of(s.heavy.pairs[shared].i) == body; ++shared)
-        s.shared_load[shared].add_to_i(sum);
-    load_sum load = sum;
-    sum = {};
+[[gnu::always_inline]] inline void add_walls(const S& s, std::size_t body, std::size_t& wall, load_sum& load) {
     const std::size_t first = wall;
     for (; wall < s.heavy_wall.size() && s.grains.body_of(s.heavy_wall[wall].pebble) == body; ++wall) {
         const boundaries::wall_row& w = s.heavy_wall[wall];
@@ -74,6 +68,17 @@ template <class S>
             load.moment += s.heavy_grip[k].moment;
             load.dissipated += s.heavy_grip[k].dissipated;
         }
+}
+/// What acts on a body whose contacts in the range have been evaluated. `shared`, `wall`: the shared contacts and wall
+/// rows that come next. Inlined by force: it has few instructions, and is called for every body in every step.
+template <class S>
+[[gnu::always_inline]] inline load_sum complete_load(S& s, std::size_t body, std::size_t& shared, std::size_t& wall) {
+    load_sum& sum = s.acting[body];
+    for (; shared < s.heavy.shared && s.grains.body_of(s.heavy.pairs[shared].i) == body; ++shared)
+        s.shared_load[shared].add_to_i(sum);
+    load_sum load = sum;
+    sum = {};
+    if constexpr (S::has_walls) add_walls(s, body, wall, load);
     s.broken.add_halo_load(body, load);
     if constexpr (S::field_type::acts) load.force += s.settings.field.force(s.seen(body)); // before it is damped
     if constexpr (S::constraint_type::acts) s.constraint.act(body, load);

@@ -58,16 +58,18 @@ template <class S> void evaluate_wall(const S& s, boundaries::wall_row& w, doubl
 template <class S>
 void evaluate_walls(const S& s, std::vector<boundaries::wall_row>& rows, std::vector<typename S::wall_grip>& grips,
                     double h, double ahead) {
-    s.settings.run.for_each(rows.size(), [&](std::size_t k) { evaluate_wall(s, rows[k], h, ahead); });
-    if (!s.walls_rub()) return grips.clear();
-    grips.resize(rows.size());
-    s.settings.run.for_each(rows.size(), [&](std::size_t k) { rub(s, rows[k], grips[k], h, ahead); });
+    grips.resize(s.walls_rub() ? rows.size() : 0);
+    s.settings.run.for_each(rows.size(), [&](std::size_t k) {
+        evaluate_wall(s, rows[k], h, ahead);
+        if (!grips.empty()) rub(s, rows[k], grips[k], h, ahead);
+    });
 }
 /// What touches pebbles now, without forces.
 template <class S> void touch_walls(const S& s, std::vector<boundaries::wall_row>& rows) {
-    s.settings.run.for_each(rows.size(), [&](std::size_t k) {
-        rows[k].touch = s.boundary.touch(s.position(rows[k].pebble), s.radius(rows[k].pebble));
-    });
+    if constexpr (S::has_walls)
+        s.settings.run.for_each(rows.size(), [&](std::size_t k) {
+            rows[k].touch = s.boundary.touch(s.position(rows[k].pebble), s.radius(rows[k].pebble));
+        });
 }
 /// Law of a pebble at the facet of a touch.
 template <class S> const typename S::contact& law_at(const S& s, const boundaries::touch& t) {
