@@ -264,8 +264,8 @@ void add_cloud(Body& s, const shape& grain, std::size_t count, const Room& room,
         s.add(kind, g.centre, g.q);
 }
 /// The same of a shape that the specimen has already, by its number, in a cylinder.
-inline void add_cloud(bodies::clumps& s, std::int32_t shape_index, std::size_t count, const cylinder& room,
-                      std::uint64_t seed) {
+template <std::same_as<bodies::clumps> Body> // else every program would make it
+void add_cloud(Body& s, std::int32_t shape_index, std::size_t count, const cylinder& room, std::uint64_t seed) {
     const double reach = s.shapes[static_cast<std::size_t>(shape_index)].circumscribed_radius;
     for (const auto& p : detail::cloud_of(s, std::vector<double>(count, reach), room, seed))
         s.add(shape_index, p.centre, p.q);
