@@ -11,6 +11,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::bodies::specimen<clast::bodies::clumps>);
+
 using namespace clast;
 
 TEST_CASE("a clump that is added has its pebbles in a row, turned and moved, and owns them") {

@@ -10,6 +10,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::bodies::specimen<clast::bodies::spheres>);
+
 using namespace clast;
 
 TEST_CASE("spheres move by the loads that act on them, damped or not, and say how far they have gone") {

@@ -2,9 +2,12 @@
 #include <catch.hpp>
 
 #include <clast/boundaries/concepts.hpp>
+#include <clast/boundaries/none.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
+
+static_assert(clast::boundaries::surface<clast::boundaries::none>);
 
 using namespace clast;
 using namespace clast::boundaries;

@@ -12,6 +12,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::constraints::absent<clast::constraints::none>);
+
 using namespace clast;
 
 namespace {

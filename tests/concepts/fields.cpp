@@ -10,6 +10,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::fields::field<clast::fields::none>);
+
 using namespace clast;
 
 namespace {

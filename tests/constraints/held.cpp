@@ -23,6 +23,8 @@
 
 #include "engine/scenes.hpp"
 
+static_assert(clast::constraints::holding<clast::constraints::held, clast::bodies::spheres>);
+
 using namespace clast;
 
 namespace {

@@ -10,6 +10,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::contacts::contact_law<clast::contacts::linear>);
+
 using namespace clast;
 using contacts::linear;
 using contacts::motion;

@@ -6,6 +6,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::contacts::contact_law<clast::contacts::linear_dashpot>);
+
 using namespace clast;
 using contacts::linear_dashpot;
 using contacts::motion;

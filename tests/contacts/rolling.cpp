@@ -8,6 +8,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::contacts::contact_law<clast::contacts::rolling<clast::contacts::linear>>);
+
 using namespace clast;
 using contacts::motion;
 using contacts::overlap;

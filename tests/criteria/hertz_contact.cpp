@@ -8,6 +8,8 @@
 
 #include "crushing.hpp"
 
+static_assert(clast::criteria::evaluated_criterion<clast::criteria::hertz_contact>);
+
 using namespace clast;
 using criteria::crushing_strength;
 using criteria::hertz_contact;

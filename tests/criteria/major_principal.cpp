@@ -7,6 +7,8 @@
 
 #include "crushing.hpp"
 
+static_assert(clast::criteria::evaluated_criterion<clast::criteria::major_principal>);
+
 using namespace clast;
 using criteria::crushing_strength;
 using criteria::major_principal;

@@ -7,6 +7,8 @@
 
 #include "crushing.hpp"
 
+static_assert(clast::criteria::evaluated_criterion<clast::criteria::nominal_force>);
+
 using namespace clast;
 using criteria::crushing_strength;
 using criteria::nominal_force;

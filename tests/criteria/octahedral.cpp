@@ -7,6 +7,8 @@
 
 #include "crushing.hpp"
 
+static_assert(clast::criteria::evaluated_criterion<clast::criteria::octahedral>);
+
 using namespace clast;
 using criteria::crushing_strength;
 using criteria::octahedral;

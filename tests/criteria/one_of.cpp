@@ -11,6 +11,8 @@
 
 #include "crushing.hpp"
 
+static_assert(clast::criteria::evaluated_criterion<clast::criteria::any>);
+
 using namespace clast;
 using namespace clast::criteria;
 

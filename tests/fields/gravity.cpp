@@ -19,6 +19,8 @@
 
 #include "engine/scenes.hpp"
 
+static_assert(clast::fields::field<clast::fields::gravity>);
+
 using namespace clast;
 
 namespace {

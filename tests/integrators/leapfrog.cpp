@@ -7,6 +7,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::integrators::multirate<clast::integrators::leapfrog>);
+
 using namespace clast;
 using integrators::leapfrog;
 

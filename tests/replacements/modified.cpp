@@ -8,6 +8,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::replacements::replacing<clast::replacements::modified>);
+
 using namespace clast;
 using replacements::birth;
 using replacements::modified;

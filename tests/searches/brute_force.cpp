@@ -8,6 +8,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::searches::search<clast::searches::brute_force>);
+
 using namespace clast;
 using searches::sphere;
 using searches::sphere_pair;

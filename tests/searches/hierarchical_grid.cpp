@@ -6,6 +6,8 @@
 
 #include "clouds.hpp"
 
+static_assert(clast::searches::search<clast::searches::hierarchical_grid>);
+
 using namespace clast;
 using namespace clouds;
 using searches::hierarchical_grid;

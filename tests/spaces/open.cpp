@@ -6,6 +6,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::spaces::space<clast::spaces::open>);
+
 using namespace clast;
 
 TEST_CASE("open space is empty, and all that is asked of it is known at compile time") {

@@ -7,6 +7,8 @@
 
 #include <catch.hpp>
 
+static_assert(clast::spaces::space<clast::spaces::periodic>);
+
 using namespace clast;
 using spaces::periodic;
 

@@ -444,7 +444,5 @@ struct clumps {
     }
 };
 
-static_assert(specimen<clumps>);
-
 } // namespace bodies
 } // namespace clast

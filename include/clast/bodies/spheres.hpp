@@ -191,6 +191,4 @@ struct spheres {
     };
 };
 
-static_assert(specimen<spheres>);
-
 } // namespace clast::bodies

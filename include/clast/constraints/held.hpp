@@ -198,6 +198,4 @@ class held {
     bool changed_ = false;
 };
 
-static_assert(holding<held, bodies::spheres>);
-
 } // namespace clast::constraints

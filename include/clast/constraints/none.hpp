@@ -12,6 +12,4 @@ struct none {
     template <class A> void archive(A&) {}
 };
 
-static_assert(absent<none>);
-
 } // namespace clast::constraints

@@ -95,6 +95,4 @@ struct linear {
     constexpr double shear_stiffness(const overlap<double>&) const { return ks; }
 };
 
-static_assert(contact_law<linear>);
-
 } // namespace clast::contacts

@@ -47,6 +47,4 @@ struct linear_dashpot {
     }
 };
 
-static_assert(contact_law<linear_dashpot>);
-
 } // namespace clast::contacts

@@ -57,6 +57,4 @@ template <contact_law Base> struct rolling : Base {
     constexpr double twisting_stiffness(const overlap<double>&) const { return kt; }
 };
 
-static_assert(contact_law<rolling<linear>>);
-
 } // namespace clast::contacts

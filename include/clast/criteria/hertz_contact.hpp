@@ -102,6 +102,4 @@ struct hertz_contact {
     }
 };
 
-static_assert(evaluated_criterion<hertz_contact>);
-
 } // namespace clast::criteria

@@ -19,6 +19,4 @@ struct major_principal {
     }
 };
 
-static_assert(evaluated_criterion<major_principal>);
-
 } // namespace clast::criteria

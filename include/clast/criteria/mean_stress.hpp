@@ -19,6 +19,4 @@ struct mean_stress {
     }
 };
 
-static_assert(evaluated_criterion<mean_stress>);
-
 } // namespace clast::criteria

@@ -23,6 +23,4 @@ struct nominal_force {
     double utilisation(const grain_load& load) const { return load.largest_force / limit(load); }
 };
 
-static_assert(evaluated_criterion<nominal_force>);
-
 } // namespace clast::criteria

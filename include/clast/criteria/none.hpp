@@ -11,6 +11,4 @@ struct none {
     static constexpr bool evaluated = false;
 };
 
-static_assert(criterion<none> && !evaluated_criterion<none>);
-
 } // namespace clast::criteria

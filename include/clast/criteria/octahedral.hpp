@@ -24,6 +24,4 @@ struct octahedral {
     }
 };
 
-static_assert(evaluated_criterion<octahedral>);
-
 } // namespace clast::criteria

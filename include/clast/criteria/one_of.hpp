@@ -45,8 +45,6 @@ template <evaluated_criterion... C> struct one_of {
 /// Every criterion of the library that is evaluated.
 using any = one_of<nominal_force, hertz_contact, octahedral, mean_stress, major_principal>;
 
-static_assert(evaluated_criterion<any>);
-
 /// Criterion by name: nominal_force, hertz_contact (calibrated), hertz_literal (Eq. 1 as printed), octahedral,
 /// mean_stress or major_principal. Throws input_error for another name.
 inline any by_name(const std::string& name, const crushing_strength& strength) {

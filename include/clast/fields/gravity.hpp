@@ -16,6 +16,4 @@ struct gravity {
     constexpr double potential(const body_at& b) const { return -b.mass * dot(acceleration, b.centre); }
 };
 
-static_assert(field<gravity>);
-
 } // namespace clast::fields

@@ -11,6 +11,4 @@ struct none {
     static constexpr bool acts = false;
 };
 
-static_assert(field<none>);
-
 } // namespace clast::fields

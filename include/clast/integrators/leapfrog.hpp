@@ -27,6 +27,4 @@ struct leapfrog {
     }
 };
 
-static_assert(multirate<leapfrog>);
-
 } // namespace clast::integrators

@@ -54,6 +54,4 @@ struct modified {
     }
 };
 
-static_assert(replacing<modified>);
-
 } // namespace clast::replacements

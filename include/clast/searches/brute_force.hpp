@@ -18,6 +18,4 @@ struct brute_force {
     }
 };
 
-static_assert(search<brute_force>);
-
 } // namespace clast::searches

@@ -26,6 +26,4 @@ struct cell_grid {
     }
 };
 
-static_assert(search<cell_grid>);
-
 } // namespace clast::searches

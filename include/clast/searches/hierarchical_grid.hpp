@@ -57,6 +57,4 @@ struct hierarchical_grid {
     }
 };
 
-static_assert(search<hierarchical_grid>);
-
 } // namespace clast::searches

@@ -179,6 +179,4 @@ class periodic {
     vec3 stress_;
 };
 
-static_assert(space<periodic>);
-
 } // namespace clast::spaces
