@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Cost of the lateral wall: what touches a pebble near it, the force, and its share for each facet, by kind of wall and
 // number of pebbles. Tiles and rings stand where a servo under uneven loads has moved them, so that there are steps.
+// A surface of your own: #include its header and add one line, BENCHMARK_SURFACE(your_surface{...}); it should stand
+// around the origin, at most 0.5 m away.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +13,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <clast/boundaries/box.hpp>
+#include <clast/boundaries/concepts.hpp>
+#include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
@@ -45,6 +50,28 @@ template <class Wall> Wall uneven(std::mt19937& random) {
     return wall;
 }
 
+/// What touches each pebble, its force, and the share of every facet.
+template <class Surface> void push(benchmark::State& state, const Surface& wall, const std::vector<vec3>& pebbles) {
+    std::vector<boundaries::facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
+    std::size_t touching = 0, touched = 0;
+    for (auto _ : state) {
+        touching = touched = 0;
+        for (const vec3& x : pebbles) {
+            const boundaries::touches t = wall.touch(x, pebble);
+            touching += t.size > 0;
+            for (const boundaries::touch& one : t) {
+                loads[static_cast<std::size_t>(one.facet)].add(one, stiffness * one.depth, stiffness);
+                ++touched;
+            }
+        }
+        benchmark::DoNotOptimize(loads.data());
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pebbles.size()));
+    state.counters["touching"] = static_cast<double>(touching) / static_cast<double>(pebbles.size());
+    state.counters["facets_per_touching"] =
+        static_cast<double>(touched) / static_cast<double>(std::max<std::size_t>(1, touching));
+}
+
 template <class Wall> void touch_and_push(benchmark::State& state) {
     std::mt19937 random(1);
     const Wall wall = uneven<Wall>(random);
@@ -62,29 +89,44 @@ template <class Wall> void touch_and_push(benchmark::State& state) {
         const double rho = (wall.apothem(facet) - pebble * (1.0 + 0.04 * u(random))) / std::cos(off);
         x = {rho * std::cos(angle), rho * std::sin(angle), z};
     }
-    std::vector<boundaries::facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
-    std::size_t touching = 0, touched = 0;
-    for (auto _ : state) {
-        touching = touched = 0;
-        for (const vec3& x : pebbles) {
-            const boundaries::touches t = wall.touch(x, pebble);
-            touching += t.size > 0;
-            for (const boundaries::touch& one : t) {
-                loads[static_cast<std::size_t>(one.facet)].add(one, stiffness * one.depth, stiffness);
-                ++touched;
-            }
-        }
-        benchmark::DoNotOptimize(loads.data());
-    }
-    state.SetItemsProcessed(state.iterations() * state.range(0));
-    state.counters["touching"] = static_cast<double>(touching) / static_cast<double>(pebbles.size());
-    state.counters["facets_per_touching"] =
-        static_cast<double>(touched) / static_cast<double>(std::max<std::size_t>(1, touching));
+    push(state, wall, pebbles);
 }
 
+/// The same for any surface, with pebbles at random where facets are near, at any gap below r / 25 or overlap up to it.
+template <boundaries::surface Surface> void touch_surface(benchmark::State& state, const Surface& surface) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> u(-0.5 - pebble, 0.5 + pebble);
+    std::vector<vec3> pebbles;
+    for (long tries = 0; pebbles.size() < 1'000 && tries < 20'000'000; ++tries) {
+        const vec3 x{u(random), u(random), u(random)};
+        if (!surface.near(x, 1.04 * pebble)) continue;
+        const boundaries::touches t = surface.touch(x, pebble);
+        if (std::all_of(t.begin(), t.end(), [](const auto& one) { return one.depth <= 0.04 * pebble; }) &&
+            surface.touch(x, 1.04 * pebble).size > 0)
+            pebbles.push_back(x);
+    }
+    if (pebbles.size() < 1'000) return state.SkipWithError("hardly a pebble touches it within 0.5 m of the origin");
+    push(state, surface, pebbles);
+}
 BENCHMARK(touch_and_push<boundaries::tiles>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
 BENCHMARK(touch_and_push<boundaries::ring_walls>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
 BENCHMARK(touch_and_push<boundaries::solid_strips>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
+
+boundaries::box square_wall() {
+    return boundaries::box({{-radius, -radius, -0.5 * height}, {radius, radius, 0.5 * height}, 3.2e8, stiffness});
+}
+boundaries::rigid_cylinder round_wall() {
+    return boundaries::rigid_cylinder({.radius = radius,
+                                       .bottom = -0.5 * height,
+                                       .top = 0.5 * height,
+                                       .largest_pebble = pebble,
+                                       .contact_stiffness_floor = stiffness});
+}
+
+#define BENCHMARK_SURFACE(...) BENCHMARK_CAPTURE(touch_surface, #__VA_ARGS__, __VA_ARGS__)
+
+BENCHMARK_SURFACE(square_wall());
+BENCHMARK_SURFACE(round_wall());
 
 } // namespace
 

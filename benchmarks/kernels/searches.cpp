@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cost of neighbour searches: by the number of spheres in a dense packing of like ones, and by the ratio of largest to
 // smallest radius.
+// A search of your own: #include its header and add one line, BENCHMARK_SEARCH(1'000'000, your_search).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -89,13 +90,14 @@ void ratios(benchmark::internal::Benchmark* b, std::int64_t n) {
     for (const std::int64_t ratio : {1, 3, 10, 100}) b->Args({n, ratio});
 }
 
-// the double loop only where it ends within a second
-BENCHMARK(by_number<searches::brute_force>)->Apply([](auto* b) { numbers(b, 10'000); });
-BENCHMARK(by_number<searches::cell_grid>)->Apply([](auto* b) { numbers(b, 1'000'000); });
-BENCHMARK(by_number<searches::hierarchical_grid>)->Apply([](auto* b) { numbers(b, 1'000'000); });
-BENCHMARK(by_ratio<searches::brute_force>)->Apply([](auto* b) { ratios(b, 10'000); });
-BENCHMARK(by_ratio<searches::cell_grid>)->Apply([](auto* b) { ratios(b, 100'000); });
-BENCHMARK(by_ratio<searches::hierarchical_grid>)->Apply([](auto* b) { ratios(b, 100'000); });
+/// Both of them for a type, up to `most` spheres (of unlike ones 100 000 at most).
+#define BENCHMARK_SEARCH(most, ...)                                                                                    \
+    BENCHMARK(by_number<__VA_ARGS__>)->Apply([](auto* b) { numbers(b, most); });                                       \
+    BENCHMARK(by_ratio<__VA_ARGS__>)->Apply([](auto* b) { ratios(b, std::min<std::int64_t>(most, 100'000)); })
+
+BENCHMARK_SEARCH(10'000, searches::brute_force); // more would take longer than a second
+BENCHMARK_SEARCH(1'000'000, searches::cell_grid);
+BENCHMARK_SEARCH(1'000'000, searches::hierarchical_grid);
 
 } // namespace
 
