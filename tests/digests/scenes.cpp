@@ -191,34 +191,8 @@ struct clumps_4_in_cell {
     static bool enough(const engine<policies>& e) { return e.space.stress().z > 5e4; }
 };
 
-/// A law in plain double, whose stiffness depends on the overlap, like that of example 03.
-struct hertz {
-    double modulus;  // E', 1/E' = sum (1 - nu^2)/E (Pa)
-    double mu = 0.0; // friction
-
-    using history = contacts::linear::history;
-    using overlap = contacts::overlap<double>;
-
-    contacts::response<double> operator()(const overlap& o, const contacts::motion<double>& m, history& h,
-                                          double dt) const {
-        if (o.depth <= 0.0) {
-            h = {};
-            return {};
-        }
-        return contacts::linear{normal_stiffness(o) / 1.5, shear_stiffness(o), mu}(o, m, h, dt);
-    }
-    double stored(const overlap& o, const history& h) const {
-        if (o.depth <= 0.0) return 0.0;
-        const double shear2 = h.x * h.x + h.y * h.y + h.z * h.z;
-        return normal_stiffness(o) * o.depth * o.depth / 3.75 + shear2 / (2.0 * shear_stiffness(o));
-    }
-    double normal_stiffness(const overlap& o) const {
-        return 2.0 * modulus * std::sqrt(o.reduced_radius() * std::max(o.depth, 0.0));
-    }
-    double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
-};
 struct clumps_4_of_hertz {
-    using policies = whole<boundaries::solid_strips, bodies::clumps, hertz>;
+    using policies = whole<boundaries::solid_strips, bodies::clumps, scenes::hertz>;
     static constexpr std::int64_t steps = 1500;
     static engine<policies> start(int threads) {
         engine_settings<policies> s{.grain_contact = {5e8, 0.3},

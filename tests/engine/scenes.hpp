@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -33,6 +34,33 @@ template <class Boundary = boundaries::none> struct unbreakable_spheres : unbrea
 };
 template <class Boundary = boundaries::solid_strips> struct breakable : triaxial_policies_default {
     using boundary = Boundary;
+};
+
+/// A law in plain double, whose stiffness depends on the overlap, like that of example 03.
+struct hertz {
+    double modulus;  // E', 1/E' = sum (1 - nu^2)/E (Pa)
+    double mu = 0.0; // friction
+
+    using history = contacts::linear::history;
+    using overlap = contacts::overlap<double>;
+
+    contacts::response<double> operator()(const overlap& o, const contacts::motion<double>& m, history& h,
+                                          double dt) const {
+        if (o.depth <= 0.0) {
+            h = {};
+            return {};
+        }
+        return contacts::linear{normal_stiffness(o) / 1.5, shear_stiffness(o), mu}(o, m, h, dt);
+    }
+    double stored(const overlap& o, const history& h) const {
+        if (o.depth <= 0.0) return 0.0;
+        const double shear2 = h.x * h.x + h.y * h.y + h.z * h.z;
+        return normal_stiffness(o) * o.depth * o.depth / 3.75 + shear2 / (2.0 * shear_stiffness(o));
+    }
+    double normal_stiffness(const overlap& o) const {
+        return 2.0 * modulus * std::sqrt(o.reduced_radius() * std::max(o.depth, 0.0));
+    }
+    double shear_stiffness(const overlap& o) const { return 0.8 * normal_stiffness(o); }
 };
 
 inline constexpr contacts::piece pebble{5.8e6, 2.9e6, 0.3}, platen{3.2e8, 1.6e8, 0.0}, membrane{3.2e6, 1.6e6, 0.0};
