@@ -49,6 +49,8 @@ double largest_step(double largest_gap) {
 TEST_CASE("the largest step of a tile column is two smallest radii, or what is asked for") {
     CHECK(settings().largest_gap == 0.0);
     CHECK(tiles(settings()).settings().largest_gap == 0.004);
+    CHECK(settings().largest_step == 0.0);
+    CHECK(tiles(settings()).settings().largest_step == 0.004); // around a ring the same
     const double small = largest_step(0.0), wide = largest_step(0.008);
     CHECK(small > 0.0039);
     CHECK(small < 0.0042);

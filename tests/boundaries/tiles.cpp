@@ -24,6 +24,7 @@ cylinder_settings specimen(int rings = 36) {
     s.top = 0.35;
     s.rings = rings;
     s.smallest_radius = 2.3e-3;
+    s.largest_step = 5e-3; // around a ring another limit than up a column
     s.contact_stiffness_floor = 2.06e6;
     return s;
 }

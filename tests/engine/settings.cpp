@@ -57,7 +57,16 @@ TEST_CASE("values that make no sense are refused by the name of the member, with
     for (const double wrong : {0.0, -2650.0, nan})
         names(refusal([&](settings_type&, bodies::spheres& b) { b.density = wrong; }), "density of the bodies");
     names(refusal([](settings_type& s, bodies::spheres&) { s.skin = -1e-3; }), "engine_settings.skin");
-    names(refusal([](settings_type& s, bodies::spheres&) { s.largest_step = 0.0; }), "engine_settings.largest_step");
+    for (const double wrong : {0.0, -1e-5, nan})
+        names(refusal([&](settings_type& s, bodies::spheres&) { s.largest_step = wrong; }),
+              "engine_settings.largest_step");
+    // bodies that nothing would ever stop say nothing about a step
+    const auto without_stiffness = [](settings_type& s, bodies::spheres&) { s.grain_contact = {}; };
+    names(refusal(without_stiffness), "engine_settings.largest_step");
+    CHECK(refusal([&](settings_type& s, bodies::spheres& b) {
+              without_stiffness(s, b);
+              s.largest_step = 1e-4;
+          }).empty());
     names(refusal([](settings_type& s, bodies::spheres&) { s.expected_overlap = 0.0; }),
           "engine_settings.expected_overlap");
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/none.hpp>
+#include <clast/constraints/held.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/io/archive.hpp>
 
 #include <catch.hpp>
 
@@ -45,6 +48,57 @@ TEST_CASE("the step is that of the body with the stiffest contacts, by hand") {
     }
     CHECK(row(1).dt() == Approx(0.5 * std::sqrt(m / (kn + 2.0 * ks))).epsilon(1e-12));
     CHECK(row(3, 1e-7).dt() == 1e-7);
+}
+
+TEST_CASE("what is soft and heavy takes long steps, as long as its contacts allow, unless it is told otherwise") {
+    bodies::spheres s;
+    s.add({}, 1.0);
+    engine_settings<spheres_alone> soft{.grain_contact = {1e4, 1e4, 0.3},
+                                        .platen_contact = {},
+                                        .lateral_contact = {},
+                                        .breakage = {},
+                                        .replacement = {}};
+    const double typical = 0.8 * std::sqrt(2650.0 * sphere_volume(1.0) / 3e4);
+    CHECK(typical > 0.4);
+    CHECK(engine<spheres_alone>(soft, s, spaces::open{}).dt() == Approx(typical).epsilon(1e-12));
+    soft.largest_step = 1e-4;
+    CHECK(engine<spheres_alone>(soft, s, spaces::open{}).dt() == 1e-4);
+}
+
+TEST_CASE("a scene without bodies can be made, to read one into it, but makes no step") {
+    engine<spheres_alone> full = row(2), empty = row(0, std::numeric_limits<double>::infinity());
+    CHECK(empty.dt() == 0.0);
+    CHECK_THROWS_AS(empty.step(), input_error);
+    from_bytes(to_bytes(full), empty);
+    full.step(100), empty.step(100);
+    CHECK(empty.dt() == full.dt());
+    CHECK(checksum(empty) == checksum(full));
+}
+
+namespace {
+struct held_spheres : spheres_alone {
+    using constraint = constraints::held;
+};
+} // namespace
+
+TEST_CASE("fixed bodies do not limit the step, and where all are fixed it is that of the lightest") {
+    bodies::spheres s;
+    s.add({}, r), s.add({0.1, 0.0, 0.0}, 0.5 * r);
+    engine<held_spheres> e({.grain_contact = {kn, ks, 0.3},
+                            .platen_contact = {},
+                            .lateral_contact = {},
+                            .breakage = {},
+                            .replacement = {}},
+                           s, spaces::open{});
+    const auto of = [](double radius) { return 0.8 * std::sqrt(2650.0 * sphere_volume(radius) / (kn + 2.0 * ks)); };
+    CHECK(e.dt() == Approx(of(0.5 * r)).epsilon(1e-12));
+    scene<held_spheres> now = e.state();
+    now.constraint.fix(1);
+    rooms::estimate_step(now, true);
+    CHECK(now.dt == Approx(of(r)).epsilon(1e-12));
+    now.constraint.fix(0);
+    rooms::estimate_step(now, true);
+    CHECK(now.dt == Approx(of(0.5 * r)).epsilon(1e-12));
 }
 
 TEST_CASE("a count of contacts that surely allows a step never hides a stiffer body") {

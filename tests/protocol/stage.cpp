@@ -30,6 +30,7 @@ TEST_CASE("conditions are met at their limits and not before, and say so in word
     check(until::unloaded(0.8_N), v.mean_contact_force, 0.9, 0.7);
     v.steps = 10;
     CHECK_FALSE(until::unloaded(0.8_N).met(v)); // a start that no contact has felt yet is not rest
+    CHECK_FALSE(until::unloaded_of_setup(1e-3).met(v));
 
     v.axial_error = 0.0;
     check(until::stresses_within(1e-3), v.confining_error, 2e-3, 5e-4);
@@ -40,6 +41,31 @@ TEST_CASE("conditions are met at their limits and not before, and say so in word
     CHECK(until::steps(100).progress(v) == Approx(0.99));
     v.steps = 100;
     CHECK(until::steps(100).met(v));
+}
+
+TEST_CASE("limits in parts of the setup follow its stress and its grains") {
+    stage_view v;
+    v.steps = 5000;
+    v.confining = 2e6, v.grain_diameter = 0.02; // the paper's: 1 kPa, and a thousandth of 800 N
+    CHECK(v.grain_force() == Approx(800.0));
+    const condition calm = until::spheres_below_of_setup(5e-4), loose = until::unloaded_of_setup(1e-3);
+    CHECK(calm.text == "p' < 0.05 % of the confining stress in three spheres");
+    CHECK(loose.text == "mean contact force < 0.1 % of sigma_3 d^2");
+    const auto limits = [&](double stress, double force) {
+        v.sphere_stress = 1.01 * stress, v.mean_contact_force = 1.01 * force;
+        CHECK_FALSE(calm.met(v));
+        CHECK_FALSE(loose.met(v));
+        CHECK(calm.progress(v) < 1.0);
+        CHECK(loose.progress(v) < 1.0);
+        v.sphere_stress = 0.99 * stress, v.mean_contact_force = 0.99 * force;
+        CHECK(calm.met(v));
+        CHECK(loose.met(v));
+        CHECK(calm.progress(v) == 1.0);
+        CHECK(loose.progress(v) == 1.0);
+    };
+    limits(1e3, 0.8);
+    v.confining = 2e5, v.grain_diameter = 0.2;
+    limits(1e2, 8.0);
 }
 
 TEST_CASE("conditions join by and, by or, and the progress follows") {

@@ -165,13 +165,15 @@ TEST_CASE("stages take sizes, stress and inertial number from the setup, or are 
     std::vector<stage> given = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent, 5e-3);
     given.push_back(protocol::unloading(200_kPa, 5_kPa, 5e-3));
     REQUIRE(from.size() == given.size());
+    const auto in_si = [](const axis_drive& a) { return a.of_setup ? a.value * 200e3 : a.value; }; // that of seating
     for (std::size_t k = 0; k < from.size(); ++k) {
         CHECK(from[k].name == given[k].name);
         CHECK(from[k].axial.how == given[k].axial.how);
-        CHECK(from[k].axial.value == given[k].axial.value);
-        CHECK(from[k].lateral.value == given[k].lateral.value);
+        CHECK(from[k].axial.value == in_si(given[k].axial));
+        CHECK(from[k].lateral.value == in_si(given[k].lateral));
         CHECK_FALSE(from[k].axial.of_setup);
     }
+    CHECK(from[2].axial.value == 100.0); // 5e-4 of 200 kPa
     const auto refused = [&](const std::vector<stage>& stages) -> std::string {
         try {
             (void)taken(stages);
@@ -199,7 +201,29 @@ TEST_CASE("stages take sizes, stress and inertial number from the setup, or are 
     CHECK(refused(protocol::preparation(66_mm, 75_mm)).empty());
 }
 
-TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at 1 kPa, at its size") {
+TEST_CASE("the preparation ends at parts of the stress and grains of the setup: at 1 kPa of the paper's 2 MPa") {
+    const std::vector<stage> s = protocol::preparation();
+    REQUIRE(s[1].name == "relax");
+    stage_view v;
+    v.steps = 5000;
+    const auto ends = [&](double confining, double diameter, double unbalanced, double stress, double force) {
+        v.confining = confining, v.grain_diameter = diameter;
+        v.unbalanced_ratio = unbalanced, v.sphere_stress = stress, v.mean_contact_force = force;
+        return s[1].end.met(v);
+    };
+    for (const double scale : {1.0, 0.01, 100.0}) {
+        const double sigma = 2e6 * scale, rests = 9e-4, moves = 0.5;
+        CHECK(ends(sigma, 0.02, rests, 990.0 * scale, 10.0 * scale)); // at rest, under hardly any stress
+        CHECK_FALSE(ends(sigma, 0.02, 1.1e-3, 990.0 * scale, 10.0 * scale));
+        CHECK_FALSE(ends(sigma, 0.02, rests, 1010.0 * scale, 10.0 * scale));
+        CHECK(ends(sigma, 0.02, moves, 1e4 * scale, 0.79 * scale)); // nothing carries a load
+        CHECK_FALSE(ends(sigma, 0.02, moves, 1e4 * scale, 0.81 * scale));
+        CHECK(ends(sigma, 0.2, moves, 1e4 * scale, 79.0 * scale)); // of grains ten times as large
+        CHECK_FALSE(ends(sigma, 0.2, moves, 1e4 * scale, 81.0 * scale));
+    }
+}
+
+TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at a small stress, at its size") {
     setup_type s = good();
     triaxial_test<rigid> test(s, protocol::preparation(s.diameter, s.height));
     observer quiet;
@@ -207,7 +231,7 @@ TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at 1 kPa,
     const sample now = test.protocol().measure();
     CHECK(now.height == Approx(0.075).epsilon(0.02));
     CHECK(now.porosity == Approx(0.62).epsilon(0.03));
-    CHECK(now.p < 2e3);
+    CHECK(now.p < 1e3);
     CHECK(now.replaced == 0);
 }
 

@@ -38,6 +38,11 @@ TEST_CASE(
     CHECK(cell.stress() == vec3{1.1e5, 5.0, 0.0});
     cell.observe({0, 0, 0}, {0, 0, 0}, 1e-5); // a cloud that does not touch
     CHECK(cell.axes[0].rate == -2.0);
+    cell.axes[0].max_rate = 0.0; // then the step says how fast
+    for (const double dt : {1e-5, 4e-5}) {
+        cell.observe({0, 0, 0}, {0, 0, 0}, dt);
+        CHECK(cell.axes[0].rate == -1e-5 / dt);
+    }
 }
 
 TEST_CASE("an empty cell is refused, and a cell comes back from an archive") {

@@ -41,7 +41,7 @@ struct cylinder_settings {
     double tile_stiffness = 3.2e6;        ///< of the piece (N/m), paper Table 1
     double smallest_radius = 0.0;         ///< of all pebbles (m), > 0
     double largest_gap = 0.0;             ///< largest step between tiles of a column (m); 0: 2 smallest_radius
-    double largest_step = 5e-3;           ///< largest step between neighbours of a ring (m), > 0
+    double largest_step = 0.0;            ///< largest step between neighbours of a ring (m); 0: largest_gap
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
     double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
     control::gap_rule gaps{};
@@ -350,7 +350,7 @@ template <moving_unit Unit> cylinder_settings faceted_cylinder<Unit>::cylinder_o
     c.platen_stiffness = s.platen_stiffness;
     c.tile_stiffness = s.wall_stiffness;
     c.smallest_radius = s.smallest_radius;
-    c.largest_gap = c.largest_step = s.largest_gap;
+    c.largest_gap = s.largest_gap;
     c.contact_stiffness_floor = s.contact_stiffness_floor;
     return c;
 }
@@ -397,7 +397,6 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     demand(set_.rings >= 1, "rings", set_.rings, ">= 1", "The paper uses 12, 24 and 36.");
     demand(set_.tiles_per_ring >= 6, "tiles_per_ring", set_.tiles_per_ring, ">= 6", "The paper uses 20.");
     demand(set_.smallest_radius > 0.0, "smallest_radius", set_.smallest_radius, "> 0 m", in_si);
-    demand(set_.largest_step > 0.0, "largest_step", set_.largest_step, "> 0 m", "5 mm is the default.");
     demand(set_.platen_stiffness > 0.0, "platen_stiffness", set_.platen_stiffness, "> 0 N/m", in_si);
     demand(set_.tile_stiffness > 0.0, "tile_stiffness", set_.tile_stiffness, "> 0 N/m", in_si);
     demand(set_.contact_stiffness_floor > 0.0, "contact_stiffness_floor", set_.contact_stiffness_floor, "> 0 N/m",
@@ -406,6 +405,8 @@ faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : se
     demand(set_.gaps.release > 0.0 && set_.gaps.release <= 1.0, "gaps.release", set_.gaps.release, "in (0, 1]", "");
     if (set_.largest_gap == 0.0) set_.largest_gap = 2.0 * set_.smallest_radius;
     demand(set_.largest_gap > 0.0, "largest_gap", set_.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
+    if (set_.largest_step == 0.0) set_.largest_step = set_.largest_gap;
+    demand(set_.largest_step > 0.0, "largest_step", set_.largest_step, "> 0 m", "0 takes largest_gap.");
     if (set_.largest_radius == 0.0) set_.largest_radius = 1.6 * set_.radius;
     demand(set_.largest_radius > set_.radius, "largest_radius", set_.largest_radius, "above radius",
            "0 takes 1.6 radius.");

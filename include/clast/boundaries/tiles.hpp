@@ -7,8 +7,8 @@
 
 namespace clast::boundaries {
 
-/// Lateral wall of independent tiles with two platens. Pair steps: 2 smallest radii up a column, largest_step around a
-/// ring.
+/// Lateral wall of independent tiles with two platens. Pair steps: largest_gap up a column, largest_step around a ring;
+/// by default both are 2 smallest radii.
 using tiles = faceted_cylinder<moving_unit::tile>;
 
 } // namespace clast::boundaries

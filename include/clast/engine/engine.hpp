@@ -177,7 +177,7 @@ template <class P> class engine : private scene<P> {
     }
     void estimate(bool first) {
         rooms::estimate_step(own(), first);
-        rooms::estimate_light_steps(own());
+        if (dt() > 0.0) rooms::estimate_light_steps(own());
     }
 
     /// One evaluation of forces, and the motion that follows from it. since: span since the last one (s).

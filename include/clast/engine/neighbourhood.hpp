@@ -90,12 +90,12 @@ template <class S> void choose_margins(S& s) {
     run.for_each(n, [&](std::size_t b) { margins[b] = s.grains.is_swept(b) ? s.grains.surface_speed(b, flow) : 0.0; });
     const double sum = run.sum(n, 0.0, [&](std::size_t b) { return margins[b]; });
     if (!std::isfinite(sum)) explain_nan(s);
-    const double usual =
-        std::max(sum / static_cast<double>(std::max<std::size_t>(1, n)), std::numeric_limits<double>::min());
+    const double usual = sum / static_cast<double>(std::max<std::size_t>(1, n));
     // or the search would not do, and the next be due at once
     const double most = 0.125 * s.near.widths.margin();
     const auto margin = [&](double speed) {
-        return std::min(0.5 * s.near.widths.skin() * (1.0 + 2.0 * speed / usual), most);
+        const double beside = speed > 0.0 ? speed / usual : 0.0; // infinite where all others are at rest
+        return std::min(0.5 * s.near.widths.skin() * (1.0 + 2.0 * beside), most);
     };
     run.for_each(n, [&](std::size_t b) { margins[b] = margin(margins[b]); });
     s.broken.each_ball(s.grains,

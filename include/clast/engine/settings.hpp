@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include <fmt/core.h>
@@ -24,7 +25,9 @@ template <class P> struct engine_settings {
     typename P::scheme scheme{}; ///< how bodies go on, and local damping
     double safety = 0.8;         ///< of the time-step estimate, in (0, 1]
     double skin = 0.0;           ///< m: where the skin of the lists starts; 0: from the size of the grains
-    double largest_step = 1e-4;  ///< s: bound of the time step where nothing touches
+    /// s: bound of the time step beside that of contacts, for what these do not tell: a stiff field, a scheme with a
+    /// limit of its own. Above 0; infinite, which is none, where bodies and the law of the grains give a finite step.
+    double largest_step = std::numeric_limits<double>::infinity();
     /// Of the smallest radius: least overlap at which a law is asked for its stiffness where nothing touches.
     double expected_overlap = 1e-4;
     execution run = execution(1);
@@ -44,7 +47,8 @@ template <class P> void check(const engine_settings<P>& s, double density) {
                "0 to below 1", "0.7 is the default; 0 takes nothing.");
     demand(s.skin >= 0.0 && std::isfinite(s.skin), "engine_settings.skin", s.skin, ">= 0 m",
            "0 takes it from the size of the grains.");
-    demand(s.largest_step > 0.0, "engine_settings.largest_step", s.largest_step, "> 0 s", "1e-4 s is the default.");
+    demand(s.largest_step > 0.0, "engine_settings.largest_step", s.largest_step, "> 0 s",
+           "Leave it out: contacts set the step.");
     demand(s.expected_overlap > 0.0 && s.expected_overlap < 1.0, "engine_settings.expected_overlap", s.expected_overlap,
            "above 0, below 1", "1e-4 of the smallest radius is the default.");
     const auto law = [&](const typename P::contact& one, const char* name) {

@@ -10,7 +10,10 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include <clast/bodies/contact_list.hpp>
+#include <clast/core/errors.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/walls.hpp>
 #include <clast/integrators/time_step.hpp>
@@ -98,28 +101,36 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
     }
 }
 
-/// Smallest mass (kg) of a body that forces can move; infinite if there is none.
-template <class S> double smallest_free_mass(const S& s) {
-    if constexpr (!S::constraint_type::acts)
-        return s.smallest_mass;
-    else
-        return -s.settings.run.max(s.grains.body_count(), -std::numeric_limits<double>::infinity(), [&](std::size_t b) {
-            return s.constraint.is_fixed(b) ? -std::numeric_limits<double>::infinity() : -s.grains.body_mass(b);
-        });
-}
 /// Whether a body cannot limit the time step, because forces do not move it.
 template <class S> bool is_fixed([[maybe_unused]] const S& s, [[maybe_unused]] std::size_t body) {
     if constexpr (S::constraint_type::acts) return s.constraint.is_fixed(body);
     return false;
 }
+/// Smallest mass (kg) of a body that forces can move; of all bodies if they can move none.
+template <class S> double smallest_free_mass(const S& s) {
+    if constexpr (S::constraint_type::acts) {
+        constexpr double none = -std::numeric_limits<double>::infinity();
+        const double least = -s.settings.run.max(
+            s.grains.body_count(), none, [&](std::size_t b) { return is_fixed(s, b) ? none : -s.grains.body_mass(b); });
+        if (std::isfinite(least)) return least;
+    }
+    return s.smallest_mass;
+}
 
 /// dt of a scene, after some steps or from the beginning (first). Light bodies do not shrink it: they set the number of
-/// sub-steps (light_bodies.hpp).
+/// sub-steps (light_bodies.hpp). At the beginning of a scene without bodies it stays 0; else throws input_error where
+/// nothing gives a step.
 template <class S> void estimate_step(S& s, bool first) {
     // from the present positions, not from what an earlier step left behind: a restart must see the same
     touch_walls(s, s.heavy_wall), touch_walls(s, s.light_wall);
     const double limit =
         std::min(typical_limit(s, smallest_free_mass(s), typical_stiffness(s)), s.settings.largest_step);
+    if (!std::isfinite(limit)) {
+        if (first && s.grains.body_count() == 0) return; // bodies may come from an archive
+        throw input_error("engine_settings.largest_step", fmt::format("{:g} s", s.settings.largest_step),
+                          "finite where there is no body, or grain_contact has no stiffness",
+                          "Give bodies and a stiffness, or the step itself.");
+    }
     s.index_heavy();
     const auto faster = [&](std::size_t b, double so_far) {
         if (!s.grains.is_swept(b) || is_fixed(s, b) || surely_allows(s, b, -so_far)) return so_far;

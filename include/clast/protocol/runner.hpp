@@ -334,6 +334,8 @@ template <class P> class runner {
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
         view_.steps = stage_steps_;
         view_.time = stage_time_;
+        view_.confining = plan.confining;
+        view_.grain_diameter = plan.grain_diameter;
         const measure::contact_state c = measure::contacts_of(sim);
         view_.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
         view_.mean_contact_force = c.mean_contact_force;

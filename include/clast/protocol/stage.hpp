@@ -57,6 +57,11 @@ struct stage_view {
     double travel_left = 0.0;        ///< share of the way that `reach` axes still have to go, 1 to 0
     std::int64_t steps = 0;          ///< in this stage
     double time = 0.0;               ///< in this stage (s)
+    double confining = 0.0;          ///< what the setup says (Pa)
+    double grain_diameter = 0.0;     ///< likewise (m)
+
+    /// Force of the setup: its confining stress on the square of a grain's diameter (N).
+    double grain_force() const { return confining * grain_diameter * grain_diameter; }
 };
 
 /// When a stage ends, in words and as a function; `progress` in [0, 1] feeds the progress bar.
@@ -122,13 +127,26 @@ inline condition spheres_below(quantities::stress p) {
             [limit](const stage_view& v) { return v.sphere_stress < limit; },
             [limit](const stage_view& v) { return detail::falling(v.sphere_stress, limit); }};
 }
-/// No load worth the name: mean contact force below `force` and kinetic energy negligible. The way out where the
-/// unbalanced ratio becomes 0/0 in an unjammed specimen.
+/// The same in parts of the confining stress of the setup: the paper's 1 kPa is 5e-4 of its 2 MPa.
+inline condition spheres_below_of_setup(double part) {
+    return {fmt::format("p' < {:g} % of the confining stress in three spheres", 100.0 * part),
+            [part](const stage_view& v) { return v.sphere_stress < part * v.confining; },
+            [part](const stage_view& v) { return detail::falling(v.sphere_stress, part * v.confining); }};
+}
+/// No load worth the name: mean contact force below `force`, after a thousand steps. The way out where the unbalanced
+/// ratio becomes 0/0 in an unjammed specimen.
 inline condition unloaded(quantities::force force) {
     const double limit = force.si();
     return {fmt::format("mean contact force < {:g} N", limit),
             [limit](const stage_view& v) { return v.mean_contact_force < limit && v.steps > 1000; },
             [limit](const stage_view& v) { return detail::falling(v.mean_contact_force, limit); }};
+}
+/// The same in parts of the force of the setup, its confining stress on the square of a grain's diameter: 800 N with
+/// 2 MPa and 20 mm.
+inline condition unloaded_of_setup(double part) {
+    return {fmt::format("mean contact force < {:g} % of sigma_3 d^2", 100.0 * part),
+            [part](const stage_view& v) { return v.mean_contact_force < part * v.grain_force() && v.steps > 1000; },
+            [part](const stage_view& v) { return detail::falling(v.mean_contact_force, part * v.grain_force()); }};
 }
 /// Servo-controlled stresses within the tolerance of their targets.
 inline condition stresses_within(double tolerance) {

@@ -45,11 +45,14 @@ class periodic {
         double rate = 0.0; ///< d ln(edge) / dt (1/s), positive in extension; the servo writes it
         double target =
             std::numeric_limits<double>::quiet_NaN(); ///< stress (Pa, compression positive); NaN: the rate holds
-        double max_rate = 1.0;                        ///< of the servo (1/s), > 0
+        double max_rate = 0.0;                        ///< of the servo (1/s), > 0; 0: step_strain in every step
         double gain = 0.1; ///< share of the stress error removed per look at the stress, in (0, 1)
     };
     static constexpr bool has_images = true;
     static constexpr int look = 10; ///< steps between two looks at the stress
+    /// Strain of a step at the largest rate of a servo that has none of its own. A step is a share of the time that a
+    /// wave takes through a grain, so the inertial number is about 3e-5 of the root of k_n / (p d): at most some 1e-3.
+    static constexpr double step_strain = 1e-5;
     using crossings = spaces::crossings;
     using flow_type = mean_flow;
     /// What displacements count from.
@@ -133,7 +136,8 @@ class periodic {
             if (std::isnan(one.target)) continue;
             const double way = modulus[a] > 0.0 ? (stress[a] - one.target) / modulus[a]
                                                 : (one.target > 0.0 ? -1.0 : 0.0); // nothing touches: close
-            one.rate = std::clamp(one.gain * way / (look * dt), -one.max_rate, one.max_rate);
+            const double most = one.max_rate > 0.0 ? one.max_rate : step_strain / dt;
+            one.rate = std::clamp(one.gain * way / (look * dt), -most, most);
         }
     }
 
