@@ -16,7 +16,7 @@
 #include <clast/io/detail/atomic_file.hpp>
 #include <clast/io/grading.hpp>
 #include <clast/io/packing.hpp>
-#include <clast/protocol/packing.hpp>
+#include <clast/io/shapes.hpp>
 
 namespace triaxial {
 
@@ -119,7 +119,7 @@ clast::mixture grains_of(const options& o) {
     }
 }
 
-std::vector<clast::placed_grain> packing_of(const options& o, const clast::mixture& grains) {
+clast::protocol::packing packing_of(const options& o, const clast::mixture& grains) {
     if (o.packing.empty()) return {};
     try {
         return clast::read_packing(o.packing, grains);
@@ -128,17 +128,14 @@ std::vector<clast::placed_grain> packing_of(const options& o, const clast::mixtu
     }
 }
 
+clast::grain_sizes sizes_of(const options& o) {
+    const clast::mixture grains = grains_of(o);
+    const clast::protocol::packing packing = packing_of(o, grains);
+    return packing.empty() ? clast::sizes_of(grains) : packing.sizes();
+}
+
 void check_grains(options& o) {
-    const clast::mixture mixture = grains_of(o);
-    const std::vector<clast::placed_grain> packing = packing_of(o, mixture);
-    if (!packing.empty()) {
-        try {
-            (void)clast::protocol::pebbles_of(mixture, packing);
-        } catch (const input_error& e) {
-            throw by_option("--packing", e);
-        }
-    }
-    const clast::grain_sizes grains = sizes_of(mixture, packing);
+    const clast::grain_sizes grains = sizes_of(o);
     const std::vector<fs::path> files = input_files(o);
     for (std::size_t a = 0; a < files.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <clast/grains/mixture.hpp>
+#include <clast/protocol/packing.hpp>
 
 #include "options.hpp"
 
@@ -25,7 +26,10 @@ options with_files_in(options o, const std::filesystem::path& folder);
 clast::mixture grains_of(const options& o);
 
 /// Where --packing says that grains start; empty without it. Throws input_error.
-std::vector<clast::placed_grain> packing_of(const options& o, const clast::mixture& grains);
+clast::protocol::packing packing_of(const options& o, const clast::mixture& grains);
+
+/// Sizes of the grains of the mixture, or of the packing.
+clast::grain_sizes sizes_of(const options& o);
 
 /// Fills in the checksums of the files, and throws input_error where tiles, rings or the specimen do not suit the
 /// grains.

@@ -188,8 +188,7 @@ bool allowed_with_resume(const std::string& name) {
 
 void read_tiles(options& o, const raw& r) {
     const bool solid = o.membrane == "solid";
-    const clast::mixture mixture = grains_of(o);
-    const clast::grain_sizes grains = sizes_of(mixture, packing_of(o, mixture));
+    const clast::grain_sizes grains = sizes_of(o);
     // about as high as the paper's tiles, and none lower than a pebble
     const int high_enough = static_cast<int>(o.height() / (2.0 * grains.largest_radius) * (1.0 + 1e-9));
     o.rings = solid ? 1 : std::max(1, std::min(static_cast<int>(std::lround(36 * o.scale)), high_enough));

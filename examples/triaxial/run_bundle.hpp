@@ -177,7 +177,7 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
         replacement.how = o.birth == "zero" ? replacements::birth::zero_force : replacements::birth::warm_start;
     }
     mixture grains = grains_of(o);
-    std::vector<placed_grain> packing = packing_of(o, grains);
+    protocol::packing packing = packing_of(o, grains);
     return {.grain = std::move(grains),
             .diameter = quantities::length{o.diameter()},
             .height = quantities::length{o.height()},

@@ -135,7 +135,7 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
 
 TEST_CASE("a clump of half the size of its shape is one of the shape of half the size, to the last bit, as it moves") {
     // half, because then all powers of the scale are exact
-    const shape big = shapes::by_name("14B", 0.04), small = scaled_to(big, 0.5 * big.diameter);
+    const shape big = shapes::apollonian_14(0.04), small = scaled_to(big, 0.5 * big.diameter);
     random_stream random{5, 3};
     bodies::clumps by_scale, by_shape;
     by_scale.shapes = {big}, by_shape.shapes = {small};

@@ -92,19 +92,3 @@ TEST_CASE("a mixture of nothing, of empty shapes or of shares that are none is r
     CHECK(refusal({{shapes::sphere(0.01), 1.0, 0, 0.0}}).find("density ratio of shape 'sphere'") == 0);
     CHECK(refusal({{shapes::sphere(0.01), 1.0}}).empty());
 }
-
-TEST_CASE("sizes are those of the grains that are given, and those of the mixture where none are") {
-    const mixture m({{shapes::apollonian_14(0.02), 1.0}, {shapes::sphere(0.02), 1.0}});
-    const grain_sizes of_mixture = sizes_of(m, {});
-    CHECK(of_mixture.d50 == m.d50());
-    CHECK(of_mixture.largest_diameter == m.largest_diameter());
-    CHECK(of_mixture.smallest_radius == m.smallest_radius());
-    CHECK(of_mixture.largest_radius == m.largest_radius());
-    // spheres of 1, 2 and 3: the largest has 27 of 36 parts of the mass
-    const std::vector<placed_grain> grains = {{{1, 1.5}, {}, {}}, {{1, 0.5}, {}, {}}, {{1, 1.0}, {}, {}}};
-    const grain_sizes given = sizes_of(m, grains);
-    CHECK(given.d50 == Approx(0.03));
-    CHECK(given.largest_diameter == Approx(0.03));
-    CHECK(given.smallest_radius == Approx(0.005));
-    CHECK(given.largest_radius == Approx(0.015));
-}

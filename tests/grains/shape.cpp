@@ -9,8 +9,6 @@
 
 #include <catch.hpp>
 
-#include "text_file.hpp"
-
 using namespace clast;
 
 namespace {
@@ -25,16 +23,6 @@ double second_moment(const shape& s, int i, int j) {
         sum += 4.0 / 3.0 * pi * std::pow(p.radius, 3) *
                (p.offset[i] * p.offset[j] + (i == j ? p.radius * p.radius / 5.0 : 0.0));
     return sum;
-}
-
-std::string message_of(const std::string& text) {
-    const text_file file(text);
-    try {
-        shapes::from_file(file.path);
-    } catch (const input_error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -192,43 +180,6 @@ TEST_CASE("pebbles are bonded up to a gap of a thousandth of the smallest radius
     CHECK(make_shape("apart", {{{0, 0, 0}, 1.0}, {{1.5 + 5.1e-4, 0, 0}, 0.5}}).bonds.empty());
 }
 
-TEST_CASE("a shape file gives the same shape as its pebbles") {
-    const text_file file("# x y z r, in any unit when read by name\r\n\r\n-1 0\t0 1   # left\n  +1.0 0 0 1e0\n");
-    const shape s = shapes::from_file(file.path);
-    CHECK(s.pebbles.size() == 2);
-    CHECK(s.bonds.size() == 1);
-    CHECK(contains(file.path, s.name));
-    CHECK(s.diameter == Approx(4.0).epsilon(1e-15));
-    const shape scaled = shapes::by_name(file.path, 0.02);
-    CHECK(scaled.diameter == 0.02);
-    CHECK(scaled.pebbles[0].radius == Approx(0.005).epsilon(1e-15));
-}
-
-TEST_CASE("a wrong shape file is refused with its line and what is wrong") {
-    CHECK(contains(message_of("0 0 0 1\n0 0 1\n"), ":2: 3 of four numbers"));
-    CHECK(contains(message_of("0 0 0 1 7\n"), ":1: more than four numbers"));
-    CHECK(contains(message_of("# a\n0 0 zero 1\n"), ":2: 'zero' is not a finite number"));
-    CHECK(contains(message_of("0 0 0 1mm\n"), "'1mm' is not a finite number"));
-    CHECK(contains(message_of("0 0 inf 1\n"), "'inf' is not a finite number"));
-    CHECK(contains(message_of("0 0 0 -1\n"), ":1: the radius -1 is not positive"));
-    CHECK(contains(message_of("# nothing\n\n"), "there are no pebbles"));
-    CHECK(contains(message_of("0 0 0 1\n\n1 0 0 1\n"), "pebbles 0 and 1 overlap by 1 m"));
-    CHECK(contains(message_of("0 0 0 1\n\n1 0 0 1\n"), "on the lines 1, 3"));
-    CHECK(contains(message_of("0 0 0 1\n2 0 0 1\n9 0 0 1\n"), "3 pebbles form 2 separate pieces"));
-}
-
-TEST_CASE("a shape is chosen by name, and an unknown name is refused with the choices") {
-    CHECK(shapes::by_name("14B", 0.02).pebbles.size() == 14);
-    CHECK(shapes::by_name("4B", 0.02).pebbles.size() == 4);
-    CHECK(shapes::by_name("sphere", 0.02).pebbles.size() == 1);
-    CHECK_THROWS_AS(shapes::by_name("15B", 0.02), input_error);
-    try {
-        shapes::by_name("15B", 0.02);
-    } catch (const input_error& error) {
-        CHECK(contains(error.what(), "14B, 4B, sphere"));
-    }
-}
-
 TEST_CASE("a part of a shape: its pebbles, in their places, with their bonds and its own mass properties") {
     const shape whole = shapes::apollonian_14(0.02);
     const shape part = part_of(whole, 2, 6);
@@ -270,8 +221,8 @@ TEST_CASE("a part that bonds do not hold together has none, and a part of one pe
 
 TEST_CASE("pebbles that overlap are one solid, or count in full, by choice, and such a shape has no bonds and a mark") {
     const std::vector<shape_pebble> pebbles = {{{-0.5, 0, 0}, 1.0}, {{0.5, 0, 0}, 1.0}, {{3.5, 0, 0}, 2.0}};
-    const shape sum = make_shape("sum", pebbles, overlaps::as_sum),
-                solid = make_shape("solid", pebbles, overlaps::as_union);
+    const shape sum = overlapping_shape("sum", pebbles, overlaps::as_sum),
+                solid = overlapping_shape("solid", pebbles, overlaps::as_union);
     const double ball = sphere_volume(1.0), lens = std::numbers::pi * 5.0 / 12.0; // two caps of height 1/2
     CHECK(sum.volume == Approx(10.0 * ball).epsilon(1e-14));
     CHECK(solid.volume == Approx(10.0 * ball - lens).epsilon(1e-8));
@@ -291,11 +242,8 @@ TEST_CASE("pebbles that overlap are one solid, or count in full, by choice, and 
     CHECK(sum.inertia_per_density.x == Approx(0.4 * (2.0 * ball + 8.0 * ball * 4.0)).epsilon(1e-14));
     CHECK(solid.inertia_per_density.x == Approx(0.4 * (2.0 * ball + 8.0 * ball * 4.0) - of_lens).epsilon(1e-8));
     // where none overlap, nothing changes
-    const shape apart = make_shape("4B", shapes::tetrahedron_4(0.02).pebbles, overlaps::as_union);
+    const shape apart = overlapping_shape("4B", shapes::tetrahedron_4(0.02).pebbles, overlaps::as_union);
     CHECK(!apart.overlapping);
     CHECK(apart.bonds.size() == 6);
     CHECK(apart.volume == make_shape("4B", shapes::tetrahedron_4(0.02).pebbles).volume);
-    const text_file file("0 0 0 1\n1 0 0 1\n");
-    CHECK(shapes::by_name(file.path, 0.02, overlaps::as_union).overlapping);
-    CHECK_THROWS_AS(shapes::by_name(file.path, 0.02), input_error);
 }

@@ -36,7 +36,7 @@ TEST_CASE("a packing that was written is read back to the last bit: places, size
     for (int g = 0; g < 20; ++g) s.add(g % 2, direction(random), orientation(random), g < 2 ? 1.0 : 0.5 + 0.01 * g);
     const text_file file("");
     write_packing(file.path, s);
-    const std::vector<placed_grain> grains = read_packing(file.path, of);
+    const std::vector<placed_grain> grains = read_packing(file.path, of).grains();
     REQUIRE(grains.size() == 20);
     for (std::size_t g = 0; g < 20; ++g) {
         CHECK(grains[g].part == g % 2);
@@ -48,14 +48,14 @@ TEST_CASE("a packing that was written is read back to the last bit: places, size
     bodies::spheres balls;
     balls.add({0.1, 0.2, 0.3}, 0.01);
     write_packing(file.path, balls);
-    const auto one = read_packing(file.path, shapes::sphere(0.04));
+    const auto one = read_packing(file.path, shapes::sphere(0.04)).grains();
     REQUIRE(one.size() == 1);
     CHECK((one[0].scale == 0.5 && one[0].centre == vec3{0.1, 0.2, 0.3}));
 }
 
 TEST_CASE("spheres may come as four numbers each") {
     const text_file file("# x y z d\n0 0 0.01 0.02\n0,0,0.04,0.03\n");
-    const auto grains = read_packing(file.path, shapes::sphere(0.02));
+    const auto grains = read_packing(file.path, shapes::sphere(0.02)).grains();
     REQUIRE(grains.size() == 2);
     CHECK((grains[0].scale == 1.0 && grains[1].scale == Approx(1.5)));
     CHECK(grains[1].centre.z == 0.04);

@@ -159,7 +159,7 @@ TEST_CASE("a packing of one's own is looked at: inside, orientations, sizes, ove
         std::vector<placed_grain> grains = good;
         change(grains);
         try {
-            (void)protocol::pebbles_of(of, grains);
+            (void)protocol::packing(of, grains);
         } catch (const input_error& e) {
             return e.what();
         }
@@ -180,14 +180,27 @@ TEST_CASE("a packing of one's own is looked at: inside, orientations, sizes, ove
     names(refusal([](auto& g) { g[1].centre.z = 0.018; }), "packing, grain 1", "m inside grain 2");
     // and inside: by nine tenths of a radius
     const protocol::cylinder room{0.03, 0.0, 0.06};
-    CHECK(protocol::first_outside(room, protocol::pebbles_of(of, good)) == 8);
+    CHECK(protocol::first_outside(room, protocol::packing(of, good).pebbles()) == 8);
     const auto first_out = [&](const vec3& by) {
         std::vector<placed_grain> grains = good;
         grains[1].centre += by;
-        return protocol::first_outside(room, protocol::pebbles_of(of, grains));
+        return protocol::first_outside(room, protocol::packing(of, grains).pebbles());
     };
     const double r = 1.2 * of.parts()[0].form.pebbles[0].radius, reach = 1.2 * of.parts()[0].form.pebbles[0].offset.z;
     CHECK(first_out({0, 0, 0.02 - reach - 0.91 * r}) == 8);
     CHECK(first_out({0, 0, 0.02 - reach - 0.89 * r}) < 8);
     CHECK(first_out({0.025, 0, 0}) < 8);
+}
+
+TEST_CASE("the sizes of a packing are those of its grains") {
+    const mixture m({{shapes::apollonian_14(0.02), 1.0}, {shapes::sphere(0.02), 1.0}});
+    // spheres of 1, 2 and 3: the largest has 27 of 36 parts of the mass
+    const std::vector<placed_grain> grains = {
+        {{1, 1.5}, {0.1, 0, 0}, {}}, {{1, 0.5}, {}, {}}, {{1, 1.0}, {-0.1, 0, 0}, {}}};
+    const grain_sizes given = protocol::packing(m, grains).sizes();
+    CHECK(given.d50 == Approx(0.03));
+    CHECK(given.largest_diameter == Approx(0.03));
+    CHECK(given.smallest_radius == Approx(0.005));
+    CHECK(given.largest_radius == Approx(0.015));
+    CHECK(protocol::packing().empty());
 }

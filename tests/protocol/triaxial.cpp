@@ -264,8 +264,10 @@ TEST_CASE("a packing of one's own starts at the size of the specimen, without a 
     observer quiet;
     REQUIRE(first.run(quiet));
     const bodies::clumps& packed = first.sim().grains;
+    std::vector<placed_grain> grains;
     for (std::size_t g = 0; g < packed.grain_count(); ++g)
-        s.packing.push_back({{0, packed.grains[g].scale}, packed.centre(g), packed.turning[g].q});
+        grains.push_back({{0, packed.grains[g].scale}, packed.centre(g), packed.turning[g].q});
+    s.packing = protocol::packing(s.grain, grains);
     triaxial_test<rigid> again(s, protocol::preparation());
     const double larger = again.sim().boundary.height() / 0.075; // tiles may have moved out when they were seated
     CHECK((larger >= 1.0 && larger < 1.15));
@@ -276,7 +278,8 @@ TEST_CASE("a packing of one's own starts at the size of the specimen, without a 
     REQUIRE(again.run(quiet));
     CHECK(again.sim().totals().steps < before); // no way to go in `compact`
     CHECK(again.sim().grains.solid_volume() == packed.solid_volume());
-    s.packing[3].centre.x = 1.0;
+    grains[3].centre.x = 1.0;
+    s.packing = protocol::packing(s.grain, grains);
     CHECK_THROWS_AS(triaxial_test<rigid>(s, protocol::preparation()), input_error);
 }
 

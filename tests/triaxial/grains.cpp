@@ -73,7 +73,7 @@ TEST_CASE("pebbles that overlap are one solid where grains never break, and refu
 TEST_CASE("a packing is read with the shapes of the run") {
     const text_file balls("0 0 0 0.02\n0 0 0.03 0.03\n");
     const options o = read({"--shape", "sphere", "--packing", balls.path, "--tiles-per-ring", "8"});
-    const auto grains = packing_of(o, grains_of(o));
+    const auto grains = packing_of(o, grains_of(o)).grains();
     REQUIRE(grains.size() == 2);
     CHECK(grains[1].scale == Approx(1.5));
     CHECK(has(grains_text(o), "packing = "));

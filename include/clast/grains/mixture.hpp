@@ -78,13 +78,13 @@ class mixture {
     double largest_diameter() const { return over_diameters(true); }
     double d50() const {
         if (!sizes_.empty()) return sizes_.size_at(0.5);
-        std::vector<std::pair<double, double>> by_size;
-        for (const mixture_part& p : parts_) by_size.emplace_back(p.form.diameter, p.share);
-        std::sort(by_size.begin(), by_size.end());
-        double finer = 0.0;
-        for (const auto& [d, share] : by_size)
-            if ((finer += share) >= 0.5) return d;
-        return by_size.back().first;
+        double d = over_diameters(true); // the smallest one up to which half of the mass is
+        for (const mixture_part& p : parts_) {
+            double finer = 0.0;
+            for (const mixture_part& o : parts_) finer += o.form.diameter <= p.form.diameter ? o.share : 0.0;
+            if (finer >= 0.5) d = std::min(d, p.form.diameter);
+        }
+        return d;
     }
     /// Radii of pebbles (m): the smallest and the largest.
     double smallest_radius() const { return over_radii(false); }
@@ -95,21 +95,29 @@ class mixture {
     std::vector<mixture_grain> grains_of(double volume) const {
         double lightness = 0.0; // volume of a unit of mass: lighter rocks fill more room
         for (const mixture_part& p : parts_) lightness += p.share / p.density_ratio;
-        std::vector<mixture_grain> all;
+        std::vector<std::vector<double>> scales(parts_.size()); // of each shape, falling
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const shape& s = parts_[k].form;
-            const double own = parts_[k].share / parts_[k].density_ratio / lightness * volume;
+            const double own = parts_[k].share / parts_[k].density_ratio / lightness * volume, d = s.diameter;
             if (sizes_.empty()) {
-                all.insert(all.end(), static_cast<std::size_t>(std::llround(own / s.volume)), {k, 1.0});
+                scales[k].assign(static_cast<std::size_t>(std::llround(own / s.volume)), 1.0);
             } else {
-                const double d = s.diameter;
-                for (const double size : sizes_.sizes(own, s.volume / (d * d * d))) all.push_back({k, size / d});
+                scales[k] = sizes_.sizes(own, s.volume / (d * d * d));
+                for (double& size : scales[k]) size /= d;
             }
         }
-        std::sort(all.begin(), all.end(), [this](const mixture_grain& a, const mixture_grain& b) {
-            return diameter(a) != diameter(b) ? diameter(a) > diameter(b) : a.part < b.part;
-        });
-        return all;
+        std::vector<mixture_grain> all;
+        std::vector<std::size_t> next(parts_.size());
+        while (true) { // the largest of those that come next
+            std::size_t most = parts_.size();
+            for (std::size_t k = 0; k < parts_.size(); ++k)
+                if (next[k] < scales[k].size() &&
+                    (most == parts_.size() ||
+                     diameter({k, scales[k][next[k]]}) > diameter({most, scales[most][next[most]]})))
+                    most = k;
+            if (most == parts_.size()) return all;
+            all.push_back({most, scales[most][next[most]++]});
+        }
     }
 
   private:
@@ -140,28 +148,8 @@ struct grain_sizes {
     double smallest_radius = 0.0;  ///< of a pebble
     double largest_radius = 0.0;   ///< of a pebble
 };
-
-/// Of a mixture, or of grains of it that are given one by one, if there are any (parts and scales must be such).
-inline grain_sizes sizes_of(const mixture& m, const std::vector<placed_grain>& grains) {
-    if (grains.empty()) return {m.d50(), m.largest_diameter(), m.smallest_radius(), m.largest_radius()};
-    grain_sizes sizes{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
-    std::vector<std::pair<double, double>> by_size; // diameter, volume
-    double left = 0.0;
-    for (const placed_grain& g : grains) {
-        by_size.emplace_back(m.diameter(g), m.volume(g));
-        left += 0.5 * m.volume(g);
-        for (const shape_pebble& p : m.form(g).pebbles) {
-            sizes.smallest_radius = std::min(sizes.smallest_radius, g.scale * p.radius);
-            sizes.largest_radius = std::max(sizes.largest_radius, g.scale * p.radius);
-        }
-    }
-    std::sort(by_size.begin(), by_size.end());
-    sizes.largest_diameter = by_size.back().first;
-    for (const auto& [d, volume] : by_size) {
-        sizes.d50 = d;
-        if ((left -= volume) <= 0.0) break;
-    }
-    return sizes;
+inline grain_sizes sizes_of(const mixture& m) {
+    return {m.d50(), m.largest_diameter(), m.smallest_radius(), m.largest_radius()};
 }
 
 } // namespace clast

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -17,7 +16,6 @@
 #include <fmt/core.h>
 
 #include <clast/core/errors.hpp>
-#include <clast/core/number_lines.hpp>
 #include <clast/core/symmetric.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/grains/union_of_spheres.hpp>
@@ -34,13 +32,6 @@ struct shape_pebble {
 struct shape_bond {
     std::int32_t a = 0; ///< index of the first pebble
     std::int32_t b = 0; ///< index of the second pebble, a < b
-};
-
-/// What to make of pebbles that overlap: grains of such shapes never break.
-enum class overlaps : std::uint8_t {
-    refuse,   ///< an input_error
-    as_union, ///< a solid: what several pebbles cover counts once in volume, mass and inertia
-    as_sum    ///< every pebble counts in full, as if none overlapped
 };
 
 /// The template that all grains of one kind share: a rigid clump of pebbles. Make it with `make_shape` or
@@ -166,39 +157,39 @@ inline void check_diameter(double diameter) {
                           "Give the diameter of the circumscribed sphere, e.g. 0.02 (20 mm).");
 }
 
-/// Volume (m^3), mass centre and, about that, inertia tensor over density (m^5) of the sum of pebbles, whose offsets
-/// become those from the mass centre; or of their union.
+/// Volume (m^3), mass centre and, about that, inertia tensor over density (m^5).
 struct solid {
     double volume = 0.0;
     vec3 centre;
     mat3 tensor;
 };
-inline solid solid_of(std::vector<shape_pebble>& pebbles, bool as_union) {
+/// Of the sum of pebbles, whose offsets become those from the mass centre.
+inline solid sum_of(std::vector<shape_pebble>& pebbles) {
     solid s;
-    if (as_union) {
-        std::vector<union_sphere> spheres;
-        for (const shape_pebble& p : pebbles) spheres.push_back({p.offset, p.radius});
-        const solid_moments m = moments_of_union(spheres);
-        s.volume = m.volume;
-        s.centre = m.first / m.volume;
-        const mat3 second = m.second + (-m.volume) * outer(s.centre, s.centre);
-        s.tensor = trace(second) * mat3::identity() + (-1.0) * second;
-    } else {
-        vec3 moment;
-        for (const shape_pebble& p : pebbles) {
-            s.volume += sphere_volume(p.radius);
-            moment += sphere_volume(p.radius) * p.offset;
-        }
-        s.centre = moment / s.volume;
+    vec3 moment;
+    for (const shape_pebble& p : pebbles) {
+        s.volume += sphere_volume(p.radius);
+        moment += sphere_volume(p.radius) * p.offset;
     }
+    s.centre = moment / s.volume;
     for (shape_pebble& p : pebbles) p.offset -= s.centre;
-    if (!as_union) s.tensor = inertia_tensor_per_density(pebbles);
+    s.tensor = inertia_tensor_per_density(pebbles);
     return s;
 }
+/// The same of their union.
+inline solid union_of(std::vector<shape_pebble>& pebbles) {
+    std::vector<union_sphere> spheres;
+    for (const shape_pebble& p : pebbles) spheres.push_back({p.offset, p.radius});
+    const solid_moments m = moments_of_union(spheres);
+    const vec3 centre = m.first / m.volume;
+    const mat3 second = m.second + (-m.volume) * outer(centre, centre);
+    for (shape_pebble& p : pebbles) p.offset -= centre;
+    return {m.volume, centre, trace(second) * mat3::identity() + (-1.0) * second};
+}
 
-/// Moves the origin of pebbles to their mass centre and turns them to principal axes, with the exact mass properties.
-inline void complete(shape& s, std::vector<shape_pebble> pebbles, bool as_union = false) {
-    const solid whole = solid_of(pebbles, as_union);
+/// Takes pebbles whose offsets count from their mass centre, turns them to principal axes, and takes the mass
+/// properties; inertia is found again from the pebbles where they say it all.
+inline void complete(shape& s, std::vector<shape_pebble> pebbles, const solid& whole, bool by_pebbles = true) {
     s.volume = whole.volume;
     s.mass_centre = whole.centre;
     const principal_frame frame = principal_axes(whole.tensor);
@@ -208,22 +199,26 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles, bool as_union 
         s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
     }
     s.diameter = 2.0 * s.circumscribed_radius;
+    const mat3 tensor = inertia_tensor_per_density(pebbles), axes = transpose(matrix(frame.to_input)); // in rows
     vec3& inertia = s.inertia_per_density;
-    if (as_union) {
-        for (int a = 0; a < 3; ++a) {
-            vec3 axis;
-            axis[a] = 1.0;
-            axis = rotate(frame.to_input, axis);
-            inertia[a] = dot(axis, whole.tensor * axis);
-        }
-    } else {
-        const mat3 tensor = inertia_tensor_per_density(pebbles);
-        inertia = {tensor(0, 0), tensor(1, 1), tensor(2, 2)};
-    }
+    for (int a = 0; a < 3; ++a) inertia[a] = by_pebbles ? tensor(a, a) : dot(axes.row[a], whole.tensor * axes.row[a]);
     // bit-equal moments let the integrator see an isotropic body without a tolerance
     if (frame.equal == 3) inertia.x = inertia.y = inertia.z = (inertia.x + inertia.y + inertia.z) / 3.0;
     if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
     s.pebbles = std::move(pebbles);
+}
+
+/// Throws input_error for pebbles that are none, by the name of the shape.
+inline void check_pebbles(const std::string& option, const std::vector<shape_pebble>& pebbles) {
+    if (pebbles.empty())
+        throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
+    for (std::size_t i = 0; i < pebbles.size(); ++i) {
+        const shape_pebble& p = pebbles[i];
+        if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
+            throw input_error(option,
+                              fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
+                              "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
+    }
 }
 
 } // namespace detail
@@ -231,47 +226,62 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles, bool as_union 
 /// Shape from pebbles in any frame (m): moves the origin to the mass centre, turns to principal axes (ascending
 /// moments; a body of revolution has its axis first; an isotropic one keeps the given axes), finds the bonds (|gap| <
 /// 1e-3 of the smallest radius) and the exact mass properties. Throws input_error if a radius is not positive, a number
-/// is not finite, or two pebbles overlap by more than 1e-9 d and nothing was said about that (`overlaps`); a shape
-/// whose pebbles overlap has no bonds. Pieces without a common bond are accepted: see `pieces`.
-inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles, overlaps how = overlaps::refuse) {
+/// is not finite, or two pebbles overlap by more than 1e-9 d. Pieces without a common bond are accepted: see `pieces`.
+inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
     const std::string option = fmt::format("shape '{}'", name);
-    if (pebbles.empty())
-        throw input_error(option, "no pebbles", "at least one pebble", "Give a centre and a radius for each pebble.");
+    detail::check_pebbles(option, pebbles);
     shape s;
     s.name = std::move(name);
     double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < pebbles.size(); ++i) {
-        const shape_pebble& p = pebbles[i];
-        if (!is_finite(p.offset) || !(p.radius > 0.0) || !std::isfinite(p.radius))
-            throw input_error(option,
-                              fmt::format("pebble {}: {} {} {} {}", i, p.offset.x, p.offset.y, p.offset.z, p.radius),
-                              "finite coordinates and a positive radius", "Correct this pebble (x y z r, in m).");
-        smallest = std::min(smallest, p.radius);
-    }
-    const std::vector<shape_pebble> given = how == overlaps::as_union ? pebbles : std::vector<shape_pebble>{};
-    detail::complete(s, std::move(pebbles));
+    for (const shape_pebble& p : pebbles) smallest = std::min(smallest, p.radius);
+    const detail::solid whole = detail::sum_of(pebbles);
+    detail::complete(s, std::move(pebbles), whole);
     const std::vector<shape_pebble>& all = s.pebbles;
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a + 1; b < all.size(); ++b) {
             const double touching = all[a].radius + all[b].radius;
             const double distance = norm(all[b].offset - all[a].offset);
             const double gap = distance - touching;
-            if (gap < -1e-9 * s.diameter) s.overlapping = true;
-            if (s.overlapping && how == overlaps::refuse)
+            if (gap < -1e-9 * s.diameter)
                 throw input_error(
                     option,
                     fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / s.diameter),
                     "pebbles that touch or are apart (tolerance 1e-9 of d = 2 R_circumscribed)",
                     fmt::format("Move them apart, or multiply their radii by {:.12g}; grains that never break may have "
-                                "them (overlaps::as_union).",
+                                "them (overlapping_shape).",
                                 distance / touching));
             if (gap < 1e-3 * smallest) s.bonds.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
         }
-    if (!s.overlapping) return s;
-    s.bonds.clear();
+    return s;
+}
+
+/// What pebbles that overlap amount to.
+enum class overlaps : std::uint8_t {
+    refuse,   ///< an input_error
+    as_union, ///< a solid: what several pebbles cover counts once in volume, mass and inertia
+    as_sum    ///< every pebble counts in full, as if none overlapped
+};
+
+/// Shape from pebbles that may overlap, for grains that never break: it has no bonds then, and an engine that replaces
+/// grains refuses it. Where none overlap by more than 1e-9 d, the same as make_shape. Throws input_error as that does,
+/// for overlaps only if it is asked to refuse them.
+inline shape overlapping_shape(std::string name, std::vector<shape_pebble> pebbles, overlaps how = overlaps::as_union) {
+    detail::check_pebbles(fmt::format("shape '{}'", name), pebbles);
+    shape s;
+    std::vector<shape_pebble> turned = pebbles;
+    const detail::solid sum = detail::sum_of(turned);
+    detail::complete(s, std::move(turned), sum);
+    for (std::size_t a = 0; a < pebbles.size(); ++a)
+        for (std::size_t b = a + 1; b < pebbles.size(); ++b)
+            s.overlapping =
+                s.overlapping || norm(pebbles[b].offset - pebbles[a].offset) - pebbles[a].radius - pebbles[b].radius <
+                                     -1e-9 * s.diameter;
+    if (!s.overlapping || how == overlaps::refuse) return make_shape(std::move(name), std::move(pebbles));
+    s.name = std::move(name);
     if (how == overlaps::as_union) {
+        const detail::solid whole = detail::union_of(pebbles);
         s.circumscribed_radius = 0.0;
-        detail::complete(s, given, true);
+        detail::complete(s, std::move(pebbles), whole, false);
     }
     return s;
 }
@@ -282,7 +292,8 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles, ove
 inline shape rigid_shape(std::string name, std::vector<shape_pebble> pebbles, std::vector<shape_bond> bonds) {
     shape s;
     s.name = std::move(name);
-    detail::complete(s, std::move(pebbles));
+    const detail::solid whole = detail::sum_of(pebbles);
+    detail::complete(s, std::move(pebbles), whole);
     s.bonds = std::move(bonds);
     if (pieces(s) > 1) s.bonds.clear();
     return s;
@@ -314,9 +325,9 @@ inline shape scaled_to(shape s, double diameter) {
     return s;
 }
 
-/// Ready-made shapes. The paper (DOI 10.1007/s10035-024-01441-3, section 4) names 14- and 4-ball particles of 2 cm
-/// and of nominal sphericity 0.86 and 0.71 but gives no coordinates; the two below are the natural non-overlapping
-/// packings.
+/// Ready-made shapes; those from files, and all by their names, are in clast/io/shapes.hpp. The paper
+/// (DOI 10.1007/s10035-024-01441-3, section 4) names 14- and 4-ball particles of 2 cm and of nominal sphericity 0.86
+/// and 0.71 but gives no coordinates; the two below are the natural non-overlapping packings.
 namespace shapes {
 
 /// One pebble: a single sphere of diameter d (m).
@@ -360,63 +371,6 @@ inline shape apollonian_14(double diameter) {
     shape result = make_shape("14B", std::move(pebbles));
     result.phi_nominal = 0.86;
     return result;
-}
-
-/// Shape from a text file: one pebble per line, `x y z r` (m, any frame), blank lines and text after # are skipped. The
-/// name is the file name without directory and extension. Throws input_error with file and line for what is wrong, and
-/// if the pebbles overlap (unless `how` says what to make of that) or do not hold together (their bonds must form one
-/// piece).
-inline shape from_file(const std::string& path, overlaps how = overlaps::refuse) {
-    const auto wrong = [&path](std::size_t line, const std::string& what) {
-        return input_error(fmt::format("shape file {}:{}: {}. A line holds four numbers, x y z r (m), with r > 0; text "
-                                       "after # is a comment.",
-                                       path, line, what));
-    };
-    std::ifstream file(path);
-    if (!file)
-        throw input_error("shape", path, "14B, 4B, sphere or the path of a readable text file with lines 'x y z r'",
-                          "Check the name or path.");
-    std::vector<shape_pebble> pebbles;
-    std::vector<std::size_t> line_of;
-    for (const number_line& line : read_number_lines(file, 4, wrong)) {
-        const std::vector<double>& v = line.values;
-        if (!(v[3] > 0.0)) throw wrong(line.line, fmt::format("the radius {} is not positive", v[3]));
-        pebbles.push_back({{v[0], v[1], v[2]}, v[3]});
-        line_of.push_back(line.line);
-    }
-    if (pebbles.empty()) throw wrong(1, "there are no pebbles");
-
-    const std::size_t slash = path.find_last_of("/\\");
-    std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-    if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0) name.resize(dot);
-
-    shape s;
-    try {
-        s = make_shape(std::move(name), std::move(pebbles), how);
-    } catch (const input_error& error) {
-        std::string lines; // pebble numbers in that message count from 0 in the order of the file
-        for (std::size_t i = 0; i < std::min<std::size_t>(line_of.size(), 100); ++i)
-            lines += fmt::format("{}{}", i == 0 ? "" : ", ", line_of[i]);
-        throw input_error(
-            fmt::format("shape file {}: {} (pebbles 0, 1, ... are on the lines {})", path, error.what(), lines));
-    }
-    if (const int n = pieces(s); n > 1 && !s.overlapping)
-        throw input_error(
-            fmt::format("shape file {}: the {} pebbles form {} separate pieces. Allowed: one piece, every pebble "
-                        "bonded to another through gaps below 1e-3 of the smallest radius. Close the gaps.",
-                        path, s.pebbles.size(), n));
-    return s;
-}
-
-/// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to the
-/// circumscribed diameter d (m); how: what to make of pebbles of a file that overlap. Throws input_error for an unknown
-/// name or a wrong file.
-inline shape by_name(const std::string& text, double diameter, overlaps how = overlaps::refuse) {
-    if (text == "14B" || text == "14b") return apollonian_14(diameter);
-    if (text == "4B" || text == "4b") return tetrahedron_4(diameter);
-    if (text == "sphere") return sphere(diameter);
-    detail::check_diameter(diameter);
-    return scaled_to(from_file(text, how), diameter);
 }
 
 } // namespace shapes

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -15,6 +17,7 @@
 #include <clast/core/number_lines.hpp>
 #include <clast/grains/mixture.hpp>
 #include <clast/io/csv.hpp>
+#include <clast/protocol/packing.hpp>
 
 namespace clast {
 
@@ -66,9 +69,8 @@ inline std::vector<placed_grain> read_bare_packing(const std::string& path, cons
 
 /// Packing from a file for grains of a mixture: a table as write_packing makes it, in which shapes go by their names;
 /// or, where all grains are single spheres, four numbers per line, `x y z d` (m). The middle of the specimen is at 0 0
-/// 0, z is its axis. Whether the grains can stand there, triaxial_test looks. Throws input_error for what cannot be
-/// read.
-inline std::vector<placed_grain> read_packing(const std::string& path, const mixture& of) {
+/// 0, z is its axis. Throws input_error for what cannot be read, and where grains cannot stand (protocol::packing).
+inline protocol::packing read_packing(const std::string& path, const mixture& of) {
     if (!std::ifstream(path))
         throw input_error("packing", path, "the path of a readable file: a table packing.csv, or lines 'x y z d' (m)",
                           "Check the path.");
@@ -90,7 +92,7 @@ inline std::vector<placed_grain> read_packing(const std::string& path, const mix
     }
     if (grains.empty())
         throw input_error(fmt::format("packing file {}: there are no grains. Give one per line.", path));
-    return grains;
+    return {of, std::move(grains)};
 }
 
 /// Writes the grains of clumps as they stand to a table that read_packing takes; grains that have become balls stand

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -209,18 +210,34 @@ template <bodies::specimen Body> void add(Body& s, const mixture& of, const std:
     }
 }
 
-/// Pebbles of grains in their places, with the numbers of the grains. Throws input_error with the number of the grain
-/// (from 1, as its row in a table) where a part is not of the mixture, a size not above 0, an orientation not of unit
-/// length (to 1e-6), or a pebble reaches into one of another grain by more than a tenth of the smaller radius; and
-/// where there are no grains.
-inline std::vector<searches::sphere> pebbles_of(const mixture& of, const std::vector<placed_grain>& grains) {
-    const auto wrong = [](std::size_t g, const std::string& what, const char* right, const char* way_out) {
+/// Grains of a mixture in their places, that have been looked at, and what a test has to know of them. A type of its
+/// own, so that programs that pack clouds do not compile this.
+class packing {
+  public:
+    /// No grains: a test makes a cloud.
+    packing() = default;
+    /// Throws input_error with the number of the grain (from 1, as its row in a table) where a part is not of the
+    /// mixture, a size not above 0, an orientation not of unit length (to 1e-6), or a pebble reaches into one of
+    /// another grain by more than a tenth of the smaller radius; and where there are no grains.
+    packing(const mixture& of, std::vector<placed_grain> grains) : grains_(std::move(grains)) {
+        if (grains_.empty())
+            throw input_error("packing", "no grains", "one grain or more", "Leave it out for a cloud.");
+        for (std::size_t g = 0; g < grains_.size(); ++g) add_pebbles(of, g);
+        look_for_overlaps();
+        measure(of);
+    }
+
+    bool empty() const { return grains_.empty(); }
+    const std::vector<placed_grain>& grains() const { return grains_; }
+    const std::vector<searches::sphere>& pebbles() const { return pebbles_; } ///< with the numbers of their grains
+    const grain_sizes& sizes() const { return sizes_; }
+
+  private:
+    static input_error wrong(std::size_t g, const std::string& what, const char* right, const char* way_out) {
         return input_error(fmt::format("packing, grain {}", g + 1), what, right, way_out);
-    };
-    if (grains.empty()) throw input_error("packing", "no grains", "one grain or more", "Leave it out for a cloud.");
-    std::vector<searches::sphere> pebbles;
-    for (std::size_t g = 0; g < grains.size(); ++g) {
-        const placed_grain& one = grains[g];
+    }
+    void add_pebbles(const mixture& of, std::size_t g) {
+        const placed_grain& one = grains_[g];
         if (one.part >= of.parts().size())
             throw wrong(g, fmt::format("shape number {}", one.part), "a shape of the mixture",
                         "Give the mixture all shapes that are in the packing.");
@@ -231,20 +248,45 @@ inline std::vector<searches::sphere> pebbles_of(const mixture& of, const std::ve
             throw wrong(g, fmt::format("orientation {} {} {} {}", q.w, q.x, q.y, q.z), "a quaternion of length 1",
                         "Divide it by its length; 1 0 0 0 leaves the axes of the shape.");
         for (const shape_pebble& p : of.form(one).pebbles)
-            pebbles.push_back(
+            pebbles_.push_back(
                 {one.centre + rotate(q, one.scale * p.offset), one.scale * p.radius, static_cast<std::int32_t>(g)});
     }
-    for (const searches::sphere_pair& pair : searches::cell_grid{}.pairs(pebbles, 0.0)) {
-        const searches::sphere &a = pebbles[static_cast<std::size_t>(pair.first)],
-                               &b = pebbles[static_cast<std::size_t>(pair.second)];
-        const double depth = a.radius + b.radius - norm(b.centre - a.centre);
-        if (a.id != b.id && depth > 0.1 * std::min(a.radius, b.radius))
-            throw wrong(static_cast<std::size_t>(a.id), fmt::format("{:.3g} m inside grain {}", depth, b.id + 1),
-                        "overlaps of a tenth of the smaller pebble's radius at most",
-                        "Shrink the grains a little, or let the program that packed them settle them.");
+    void look_for_overlaps() const {
+        for (const searches::sphere_pair& pair : searches::cell_grid{}.pairs(pebbles_, 0.0)) {
+            const searches::sphere &a = pebbles_[static_cast<std::size_t>(pair.first)],
+                                   &b = pebbles_[static_cast<std::size_t>(pair.second)];
+            const double depth = a.radius + b.radius - norm(b.centre - a.centre);
+            if (a.id != b.id && depth > 0.1 * std::min(a.radius, b.radius))
+                throw wrong(static_cast<std::size_t>(a.id), fmt::format("{:.3g} m inside grain {}", depth, b.id + 1),
+                            "overlaps of a tenth of the smaller pebble's radius at most",
+                            "Shrink the grains a little, or let the program that packed them settle them.");
+        }
     }
-    return pebbles;
-}
+    void measure(const mixture& of) {
+        sizes_.smallest_radius = pebbles_.front().radius;
+        for (const searches::sphere& p : pebbles_) {
+            sizes_.smallest_radius = std::min(sizes_.smallest_radius, p.radius);
+            sizes_.largest_radius = std::max(sizes_.largest_radius, p.radius);
+        }
+        std::vector<std::pair<double, double>> by_size; // diameter, mass
+        double half = 0.0;
+        for (const placed_grain& g : grains_) {
+            by_size.emplace_back(of.diameter(g), of.parts()[g.part].density_ratio * of.volume(g));
+            half += 0.5 * by_size.back().second;
+        }
+        std::sort(by_size.begin(), by_size.end());
+        sizes_.largest_diameter = by_size.back().first;
+        for (const auto& [d, mass] : by_size) {
+            sizes_.d50 = d;
+            if ((half -= mass) <= 0.0) break;
+        }
+    }
+
+    std::vector<placed_grain> grains_;
+    std::vector<searches::sphere> pebbles_;
+    grain_sizes sizes_;
+};
+
 /// The first of some pebbles that reaches out of a room by more than a tenth of its radius; their number if none does.
 template <room_for_a_cloud Room>
 std::size_t first_outside(const Room& room, const std::vector<searches::sphere>& pebbles) {

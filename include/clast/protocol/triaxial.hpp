@@ -65,7 +65,7 @@ template <class P> struct triaxial_setup {
     /// Where grains start, in place of a cloud (read_packing); then porosity, vessel and seed say nothing, and sizes
     /// are those of the packing. The vessel starts at the size of the specimen or, where it does not hold the grains,
     /// at the smallest size that does.
-    std::vector<placed_grain> packing{};
+    protocol::packing packing{};
     double porosity = 0.58;                        ///< as packed, counted with pebble volumes (paper section 2.3)
     int rings = 36;                                ///< V_sec; solid strips ignore it
     int tiles_per_ring = 20;                       ///< H_part
@@ -221,7 +221,6 @@ template <class P> class triaxial_test {
             if (!good) throw input_error(name, fmt::format("{:g}", value), allowed, way_out);
         };
         const double d = s.diameter.si(), h = s.height.si();
-        if (!s.packing.empty()) (void)protocol::pebbles_of(s.grain, s.packing); // looks at them
         demand(s.porosity > 0.2 && s.porosity < 0.95, "porosity", s.porosity, "0.2 to 0.95", "The paper uses 0.58.");
         // toys; results that mean something need 10 grains and more across
         const double largest = sizes(s).largest_diameter;
@@ -268,7 +267,9 @@ template <class P> class triaxial_test {
             return one.skip_if_relaxed || stress < 0.01 * sigma ? 0.0 : stress;
         });
     }
-    static grain_sizes sizes(const triaxial_setup<P>& s) { return sizes_of(s.grain, s.packing); }
+    static grain_sizes sizes(const triaxial_setup<P>& s) {
+        return s.packing.empty() ? sizes_of(s.grain) : s.packing.sizes();
+    }
     static boundaries::vessel_settings membrane_settings(const triaxial_setup<P>& s) {
         boundaries::vessel_settings m;
         m.radius = 0.5 * s.diameter.si();
@@ -325,8 +326,8 @@ template <class P> class triaxial_test {
     }
     /// Adds the grains of a packing, and returns a vessel that holds them.
     static boundary_type add_packing(const triaxial_setup<P>& s, typename P::body& sp) {
-        const std::vector<searches::sphere> pebbles = protocol::pebbles_of(s.grain, s.packing);
-        protocol::add(sp, s.grain, s.packing);
+        const std::vector<searches::sphere>& pebbles = s.packing.pebbles();
+        protocol::add(sp, s.grain, s.packing.grains());
         for (double larger = 1.0;; larger *= 1.01) {
             boundary_type vessel = vessel_of(s, larger);
             const std::size_t out = protocol::first_outside(protocol::inside(vessel), pebbles);
