@@ -36,7 +36,7 @@ template <class P> engine_settings<P> settings() {
 
 TEST_CASE("what is absent takes no room in a scene: no wall, no space, no breakage") {
     static_assert(std::is_empty_v<boundaries::none> && std::is_empty_v<spaces::open> && std::is_empty_v<unbroken>);
-    static_assert(!scene<spheres_alone>::has_walls && scene<scenes::unbreakable<>>::has_walls); // no code for them either
+    static_assert(!scene<spheres_alone>::has_walls && scene<scenes::unbreakable<>>::has_walls); // no code either
     static_assert(std::is_same_v<decltype(scene<spheres_alone>::broken), unbroken>);
     static_assert(std::is_same_v<decltype(scene<scenes::breakable<>>::broken), breakage_state>);
     using none = scene<scenes::unbreakable<>>;

@@ -48,7 +48,8 @@ template <class S> double elastic_energy(const S& s) {
         e += s.settings.grain_contact.stored(s.overlap_of(pair, depth), *h);
     };
     s.each_heavy([&](std::size_t k) { add(s.heavy, k); });
-    for (std::size_t k = 0; k < s.light.size(); ++k) add(s.light, k);
+    if constexpr (S::breakable)
+        for (std::size_t k = 0; k < s.light.size(); ++k) add(s.light, k);
     const auto add_walls = [&](const std::vector<boundaries::wall_row>& wall,
                                const std::vector<typename S::wall_grip>& grips) {
         for (std::size_t k = 0; k < wall.size(); ++k) {
@@ -64,7 +65,8 @@ template <class S> double elastic_energy(const S& s) {
                                                           held.part[t.platen()].history);
         }
     };
-    if constexpr (S::has_walls) add_walls(s.heavy_wall, s.heavy_grip), add_walls(s.light_wall, s.light_grip);
+    if constexpr (S::has_walls) add_walls(s.heavy_wall, s.heavy_grip);
+    if constexpr (S::has_walls && S::breakable) add_walls(s.light_wall, s.light_grip);
     return s.broken.add_bond_energy(e);
 }
 /// Lost to friction and damping so far (J).

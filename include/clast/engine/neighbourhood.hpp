@@ -234,7 +234,8 @@ template <class S> void choose_walls(S& s) {
                 old.push_back(grips[k]);
             }
         };
-        note(s.heavy_wall, s.heavy_grip), note(s.light_wall, s.light_grip);
+        note(s.heavy_wall, s.heavy_grip);
+        if constexpr (S::breakable) note(s.light_wall, s.light_grip);
     }
     s.heavy_wall.clear(), s.light_wall.clear(), s.heavy_grip.clear(), s.light_grip.clear();
     for (std::int32_t p : s.near.wide.wall) {
@@ -246,7 +247,7 @@ template <class S> void choose_walls(S& s) {
     }
     if (!s.walls_rub()) return;
     s.heavy_grip = grips_for(s, s.heavy_wall, place, old);
-    s.light_grip = grips_for(s, s.light_wall, place, old);
+    if constexpr (S::breakable) s.light_grip = grips_for(s, s.light_wall, place, old);
 }
 /// Which pebbles of clumps the lists name, and which not.
 template <class S> void sort_pebbles(S& s) {

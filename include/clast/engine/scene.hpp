@@ -241,11 +241,14 @@ template <simulator_policies P> struct scene {
     /// ids of a pair through grains.body_of. Before the first step there are none.
     template <class F> void each_contact(F&& f) const {
         if (!heavy.rows.empty()) each_heavy([&](std::size_t k) { f(heavy.rows[k], heavy.pairs[k]); });
-        for (std::size_t k = 0; k < light.size(); ++k) f(light.rows[k], light.pairs[k]);
+        if constexpr (breakable) // else there are no light ones, nor the time to compile f for them
+            for (std::size_t k = 0; k < light.size(); ++k) f(light.rows[k], light.pairs[k]);
     }
     template <class F> void each_wall_row(F&& f) const {
-        for (const wall_row& w : heavy_wall) f(w);
-        for (const wall_row& w : light_wall) f(w);
+        if constexpr (has_walls)
+            for (const wall_row& w : heavy_wall) f(w);
+        if constexpr (has_walls && breakable)
+            for (const wall_row& w : light_wall) f(w);
     }
     /// Centre of the body of a pebble (m).
     vec3 centre_of(std::int32_t pebble) const {

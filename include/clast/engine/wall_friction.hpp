@@ -98,7 +98,9 @@ double friction_power(const S& s, const std::vector<boundaries::wall_row>& wall,
     return power;
 }
 template <class S> double friction_power(const S& s) {
-    return friction_power(s, s.heavy_wall, s.heavy_grip) + friction_power(s, s.light_wall, s.light_grip);
+    double power = friction_power(s, s.heavy_wall, s.heavy_grip);
+    if constexpr (S::breakable) power += friction_power(s, s.light_wall, s.light_grip);
+    return power;
 }
 
 /// Gives the rows of new lists what their pebbles had in the old ones.
