@@ -78,28 +78,6 @@ TEST_CASE("servos of tiles that share a pebble move together") {
     CHECK(wall.velocity(b) < 0.05 * together);
 }
 
-TEST_CASE("a single pebble may fill the height or the width, and be squeezed to half of it, no further") {
-    cylinder_settings s = settings();
-    s.smallest_radius = 0.05;
-    s.largest_gap = s.largest_step = 0.01;
-    const auto squeezed = [&](double platens, double lateral) {
-        tiles wall(s);
-        drives d;
-        d.platens = {drive::mode::velocity, platens, 0.0, 0.5};
-        d.lateral = {drive::mode::velocity, lateral, 0.0, 0.5};
-        const std::vector<facet_load> none(static_cast<std::size_t>(wall.facet_count()));
-        wall.control(none, d, 1e-3);
-        wall.advance(1.0);
-        return wall.touch({0.0, 0.0, 0.0}, 0.05).size;
-    };
-    CHECK(squeezed(0.001, 0.0) == 2);
-    CHECK(squeezed(0.024, 0.0) == 2);
-    CHECK_THROWS_AS(squeezed(0.026, 0.0), clast::run_error);
-    CHECK(squeezed(-0.1, 0.001) >= 1);
-    CHECK(squeezed(-0.1, 0.024) >= 1);
-    CHECK_THROWS_AS(squeezed(-0.1, 0.026), clast::run_error);
-}
-
 TEST_CASE("a wall around the axis refuses a drive for y walls alone") {
     tiles wall(settings());
     drives d;

@@ -282,23 +282,6 @@ TEST_CASE("volume falls at the rate of facet area times velocity, while rings be
     CHECK(wall.height() == Approx(0.7 - 2 * 0.4 * 1e-4 * 400).epsilon(1e-12));
 }
 
-TEST_CASE("rings share the height of the specimen equally, also when it has become shorter", "[boundaries]") {
-    tiles wall(specimen(12));
-    drives d;
-    d.platens = {drive::mode::velocity, 0.1, 0.0, 0.5};
-    wall.control(std::vector<facet_load>(static_cast<std::size_t>(wall.facet_count())), d, 1e-3);
-    for (int n = 0; n < 1000; ++n) wall.advance(1e-3);
-    REQUIRE(wall.height() == Approx(0.5).epsilon(1e-12));
-    for (int ring = 0; ring < 12; ++ring) {
-        const double z = wall.bottom() + (ring + 0.5) * 0.5 / 12;
-        const touches t = wall.touch({0.15 - 0.9 * r, 0.0, z}, r);
-        REQUIRE(t.size == 1);
-        CHECK(t.at[0].facet == first_lateral_facet + 20 * ring);
-        CHECK(wall.area(t.at[0].facet) == Approx(wall.area(2)).epsilon(1e-12));
-    }
-    CHECK(20 * 12 * wall.area(2) == Approx(wall.volume() / 0.5 * 2 / 0.15 * 0.5).epsilon(1e-12)); // a prism
-}
-
 TEST_CASE("the volume of a bent membrane agrees with a count of grid points", "[boundaries]") {
     const tiles wall = bent(10, 12, 80);
     // inside = a point-like sphere touches nothing; the grid is shifted so that it meets no edge
@@ -436,21 +419,6 @@ TEST_CASE("a lost pebble, a torn membrane and platens that meet are not overlook
     bad[50] = {std::nan(""), contact, 1};
     wall.control(bad, servo(1e6, 0.02), 1e-3);
     CHECK_THROWS_AS(wall.advance(1e-3), run_error);
-}
-
-TEST_CASE("settings that make no membrane are refused", "[boundaries]") {
-    const auto refuse = [](auto&& change) {
-        cylinder_settings s = specimen();
-        change(s);
-        CHECK_THROWS_AS(tiles(s), input_error);
-    };
-    refuse([](auto& s) { s.radius = 0; });
-    refuse([](auto& s) { s.top = s.bottom; });
-    refuse([](auto& s) { s.rings = 0; });
-    refuse([](auto& s) { s.tiles_per_ring = 4; });
-    refuse([](auto& s) { s.smallest_radius = 0; });
-    refuse([](auto& s) { s.contact_stiffness_floor = 0; });
-    refuse([](auto& s) { s.gaps.closing = 1.0; });
 }
 
 TEST_CASE("the drawing shows the same areas, and closed facets", "[boundaries]") {

@@ -1,51 +1,27 @@
 // SPDX-License-Identifier: MIT
-// A cylindrical membrane of flat facets between two platens (paper section 2.2): rings of tiles around the z axis.
+// A cylindrical membrane of flat facets between two platens (paper section 2.2): how its rings of tiles are driven.
 // Whether each tile, each ring or the whole wall moves on its own is a template parameter; see tiles.hpp,
 // ring_walls.hpp and solid_strips.hpp for the three kinds.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include <clast/boundaries/cylinder_settings.hpp>
 #include <clast/boundaries/drive.hpp>
-#include <clast/boundaries/platens.hpp>
-#include <clast/boundaries/polygon.hpp>
-#include <clast/boundaries/push_out.hpp>
+#include <clast/boundaries/tile_rings.hpp>
 #include <clast/boundaries/touch.hpp>
 #include <clast/boundaries/vessel_settings.hpp>
 #include <clast/control/gap_control.hpp>
 #include <clast/control/servo.hpp>
 #include <clast/control/servo_group.hpp>
 #include <clast/core/errors.hpp>
-#include <clast/core/vector.hpp>
-#include <clast/measure/sample.hpp>
 
 namespace clast::boundaries {
-
-/// Size, resolution and stiffness of a cylindrical boundary around the z axis. All members in SI units.
-struct cylinder_settings {
-    double radius = 0.0;     ///< apothem of every tile at the start: the polygon circumscribes this circle (m), > 0
-    double bottom = 0.0;     ///< height of the bottom platen (m)
-    double top = 0.0;        ///< height of the top platen (m), > bottom
-    int rings = 36;          ///< V_sec of the paper (not used by solid strips), >= 1
-    int tiles_per_ring = 20; ///< H_part of the paper, >= 6; below 18 the polygon exceeds the circle by over 1 %
-    double platen_stiffness = 3.2e8;      ///< of the piece (N/m), paper Table 1
-    double tile_stiffness = 3.2e6;        ///< of the piece (N/m), paper Table 1
-    double smallest_radius = 0.0;         ///< of all pebbles (m), > 0
-    double largest_gap = 0.0;             ///< largest step between tiles of a column (m); 0: 2 smallest_radius
-    double largest_step = 0.0;            ///< largest step between neighbours of a ring (m); 0: largest_gap
-    double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
-    double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
-    control::gap_rule gaps{};
-};
 
 /// What the membrane did so far. A tile-step is one tile (ring, wall) under servo control in one step.
 struct boundary_counters {
@@ -61,21 +37,17 @@ struct boundary_counters {
 /// Smallest part of the lateral wall that moves on its own.
 enum class moving_unit { wall, ring, tile };
 
-/// Lateral wall of flat facets and two platens. Facets: 0 bottom platen, 1 top platen, 2 + ring * tiles_per_ring +
-/// tile, tile i facing the azimuth 2 pi i / tiles_per_ring. A facet's velocity is positive inward (dR/dt = -V).
-///
-/// Grains meet the wall as a solid of steps and valleys (push_out.hpp). The rings share the height between the platens
-/// equally and are shortened with the specimen, as a membrane that is clamped to its platens. A column that stays in
-/// place while the platens pass along it, the more literal reading of the paper, was tried: grains then drag along the
-/// ledges between rings, which carried 2 to 5 % of the axial load of a half-scale test, and slivers of rings at the
-/// platens, too low to find a grain, put the mean confining stress wrong by up to 1 %.
-template <moving_unit Unit> class faceted_cylinder {
+/// Rings of tiles (tile_rings: numbers of facets, contact, measures) whose velocities follow from their loads: a servo
+/// for each part that moves on its own, and gap control, which keeps the membrane closed.
+template <moving_unit Unit> class faceted_cylinder : public tile_rings {
   public:
     /// Throws input_error where a setting makes no sense.
     explicit faceted_cylinder(const cylinder_settings& settings);
-    /// The vessel of a test, of all that its settings say. Throws input_error, by the names of triaxial_setup, for less
-    /// than 6 tiles per ring, and for tiles narrower or (where rings move on their own) lower than the smallest pebble.
-    static faceted_cylinder made(const vessel_settings& s);
+    /// The vessel of a test, of all that its settings say. Throws input_error for what check_tiles() refuses.
+    static faceted_cylinder made(const vessel_settings& s) {
+        check_tiles(s, Unit != moving_unit::wall);
+        return faceted_cylinder(cylinder_of(s));
+    }
     /// A wall of these settings, at rest and a cylinder again, where this one is now: its radius, bottom and top count,
     /// those of the settings do not.
     faceted_cylinder resized(const vessel_settings& s) const {
@@ -85,226 +57,26 @@ template <moving_unit Unit> class faceted_cylinder {
     }
 
     static constexpr moving_unit moves = Unit;
-    const cylinder_settings& settings() const { return set_; }
     const boundary_counters& counters() const { return counters_; }
 
-    int facet_count() const { return first_lateral_facet + rings_ * around_; }
-    int ring_count() const { return rings_; }
-    int tiles_per_ring() const { return around_; }
-
-    // --- contact ---------------------------------------------------------------------------------------------------
-    /// Whether a facet could come within `reach` (pebble radius plus margin, m) of x. Conservative: never false if one
-    /// is.
-    bool near(const vec3& x, double reach) const {
-        if (platens_.near(x.z, reach)) return true;
-        const surroundings around = rings_around(x, reach, 0.0);
-        if (around.out_of_reach) return false;
-        std::array<half_slab, max_slabs> slabs;
-        std::size_t n = 0;
-        return gather(x, reach, 0.0, 0.0, around, dir_.towards(x.x, x.y), slabs, n) > 0.0;
-    }
-    /// Contacts of a sphere with the facets as they will be `ahead` seconds later at their present velocities.
-    touches touch(const vec3& x, double r, double ahead = 0.0) const {
-        touches out;
-        platens_.touch_sphere(x, r, ahead, out);
-        // the way out may be longer than the deepest overlap and then meets more tiles; as a rule the deepest is that
-        // of the tile in front
-        double margin = 0.25 * r;
-        surroundings around = rings_around(x, r + margin, ahead);
-        if (around.out_of_reach) return out;
-        const int facing = dir_.towards(x.x, x.y);
-        const double front = r - separate(slab(ring_at(x.z), facing, ahead), x).distance;
-        if (2.0 * front > margin) margin = 2.0 * front, around = rings_around(x, r + margin, ahead);
-        std::array<half_slab, max_slabs> slabs;
-        std::size_t n = 0;
-        const double deepest = gather(x, r, margin, ahead, around, facing, slabs, n);
-        if (deepest <= 0.0) return out;
-        if (2.0 * deepest > margin) {
-            margin = 2.0 * deepest;
-            gather(x, r, margin, ahead, rings_around(x, r + margin, ahead), facing, slabs, n);
-        }
-        push_out(std::span<const half_slab>(slabs).first(n), x, r, out);
-        return out;
-    }
-    /// Whether a pebble is lost: its centre is beyond a platen, or beyond its ring of tiles, by more than its radius.
-    bool outside(const vec3& x, double r) const {
-        if (!(x.z > platens_.bottom - r && x.z < platens_.top + r)) return true; // also for NaN
-        const int k = ring_at(x.z);
-        const double limit = ring_smallest_[index(k)] + r;
-        const double rho2 = x.x * x.x + x.y * x.y;
-        if (rho2 <= limit * limit) return false;
-        for (int i = 0; i < around_; ++i)
-            if (!(x.x * dir_.cosine[index(i)] + x.y * dir_.sine[index(i)] <= apothem_[tile(k, i)] + r)) return true;
-        return false;
-    }
-
-    /// Whether a sphere has room inside a wall that still is a cylinder, touching nothing.
-    bool holds(const vec3& x, double r) const {
-        const double free = radius() - r;
-        return x.x * x.x + x.y * x.y <= free * free && !platens_.near(x.z, r);
-    }
-
-    // --- facets ----------------------------------------------------------------------------------------------------
-    /// Normal stiffness of the piece (N/m), before the series rule with the pebble.
-    double stiffness(int facet) const {
-        return facet < first_lateral_facet ? set_.platen_stiffness : set_.tile_stiffness;
-    }
-    /// Velocity of a facet along its inward normal (m/s).
-    double velocity(int facet) const {
-        return facet < first_lateral_facet ? platens_.velocity[index(facet)] : velocity_[index(facet - 2)];
-    }
-    /// Inward unit normal of a facet.
-    vec3 inward(int facet) const {
-        if (facet < first_lateral_facet) return {0.0, 0.0, facet == bottom_platen ? 1.0 : -1.0};
-        const std::size_t i = index((facet - first_lateral_facet) % around_);
-        return {-dir_.cosine[i], -dir_.sine[i], 0.0};
-    }
-    /// Distance of a lateral facet's plane from the axis (m).
-    double apothem(int facet) const { return apothem_[index(facet - first_lateral_facet)]; }
-    /// Of a wall that still is a cylinder: apothem of its tiles (m).
-    double radius() const { return apothem_[0]; }
-    /// Area of a facet that encloses the specimen (m^2): visible width times height; for a platen the mean section.
-    /// d volume / dt = - sum of area times velocity.
-    double area(int facet) const {
-        if (facet < first_lateral_facet) return section();
-        return visible_[index(facet - first_lateral_facet)].width() * tile_height();
-    }
-
-    // --- motion ----------------------------------------------------------------------------------------------------
     /// Sets all facet velocities from the loads of the last step (one per facet): drive, then gap
     /// control. dt: time until the next call (s). Throws input_error for a drive that makes no sense, lateral_y
     /// included. `couplings` name facets that share pebbles, so that their servos act together
     /// (control/servo_group.hpp).
     void control(std::span<const facet_load> loads, const drives& d, double dt,
                  std::span<const coupling> couplings = {});
-    /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
-    void advance(double dt) {
-        platens_.advance(dt);
-        for (std::size_t j = 0; j < apothem_.size(); ++j) apothem_[j] -= velocity_[j] * dt;
-        refresh();
-        check_state();
-    }
-
-    /// Velocity (m/s) of the surface at a point of a touch: platens move along the axis, tiles across it and, with
-    /// their rings, along it as their height between the platens asks for.
-    vec3 velocity_at(const boundaries::touch& t, const vec3& point) const {
-        if (t.facet == bottom_platen) return {0.0, 0.0, platens_.velocity[0]};
-        if (t.facet == top_platen) return {0.0, 0.0, -platens_.velocity[1]};
-        const std::size_t j = index(t.facet - first_lateral_facet), i = j % index(around_);
-        const double v = velocity_[j], share = std::clamp((point.z - bottom()) / height(), 0.0, 1.0);
-        return {-v * dir_.cosine[i], -v * dir_.sine[i],
-                (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1]};
-    }
-
-    // --- measures --------------------------------------------------------------------------------------------------
-    double volume() const { return volume_; }             ///< enclosed (m^3)
-    double height() const { return platens_.height(); }   ///< between platens (m)
-    double section() const { return volume_ / height(); } ///< mean cross-section (m^2)
-    double bottom() const { return platens_.bottom; }     ///< height of the bottom platen (m)
-    double top() const { return platens_.top; }           ///< height of the top platen (m)
-    /// Largest facet speed (m/s).
-    double fastest() const {
-        return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), lateral_speed_});
-    }
-    /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
-    double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
-    /// Mean stress of the two platens: mean force / section (Pa).
-    double axial_stress(std::span<const facet_load> loads) const {
-        return 0.5 * (loads[bottom_platen].force + loads[top_platen].force) / section();
-    }
-    /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
-    double confining_error(std::span<const facet_load> loads, double sigma) const {
-        return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
-    }
     /// Root mean square over the moving units (tiles, rings, wall) of (F - sigma A) / (sigma A); hidden tiles left out.
     double confining_rms(std::span<const facet_load> loads, double sigma) const;
-    /// Rate of work done on the specimen by all facets (W): force times inward velocity, and that of the ledges between
-    /// rings, which move with the platens.
-    double power(std::span<const facet_load> loads) const {
-        double sum = 0.0;
-        for (int f = 0; f < facet_count(); ++f) {
-            const facet_load& l = loads[index(f)];
-            sum += l.force * velocity(f);
-            if (f < first_lateral_facet) continue;
-            const int ring = (f - first_lateral_facet) / around_;
-            sum += l.edge[0] * edge_velocity(ring) + l.edge[1] * edge_velocity(ring + 1);
-        }
-        return sum;
-    }
-    /// The platens (as squares around the wall) and all visible tiles.
-    std::vector<facet_view> view(std::span<const facet_load> loads) const;
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, edge_,
-          volume_, lateral_area_, lateral_speed_, calm_, latch_, chains_, backward_, counters_);
+        tile_rings::archive(a);
+        a(calm_, latch_, chains_, backward_, counters_);
     }
 
   private:
-    static cylinder_settings cylinder_of(const vessel_settings& s);
-    static std::string most_rings(const vessel_settings& s);
-    static std::string most_around(const vessel_settings& s);
-    static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
-    std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
-    double tile_height() const { return height() / rings_; }
-    /// Upward velocity (m/s) of the edge below a ring; the one above the last ring is number rings_.
-    double edge_velocity(int ring) const {
-        const double share = static_cast<double>(ring) / rings_;
-        return (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1];
-    }
     /// Units around the axis: each ring is one unit, or each tile.
     int units_around() const { return Unit == moving_unit::tile ? around_ : 1; }
-
-    /// Ring at a height; the end ones reach on for ever.
-    int ring_at(double z) const {
-        const double k = std::floor((z - bottom()) / (edge_[1] - edge_[0]));
-        return k <= 0.0 ? 0 : k >= rings_ - 1 ? rings_ - 1 : static_cast<int>(k);
-    }
-    /// Rings that a sphere may touch, and their least apothem (m).
-    struct surroundings {
-        int first = 0, last = 0;
-        double least = 0.0;
-        bool out_of_reach = false; ///< none of their tiles is within reach
-    };
-    surroundings rings_around(const vec3& x, double reach, double ahead) const {
-        surroundings s{ring_at(x.z - reach), ring_at(x.z + reach)};
-        s.least = ring_smallest_[index(s.first)];
-        for (int k = s.first + 1; k <= s.last; ++k) s.least = std::min(s.least, ring_smallest_[index(k)]);
-        s.least -= std::abs(ahead) * lateral_speed_;
-        const double inner = s.least - reach;
-        s.out_of_reach = inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner;
-        return s;
-    }
-    /// A tile as it will be `ahead` seconds later.
-    half_slab slab(int ring, int i, double ahead) const {
-        constexpr double infinite = std::numeric_limits<double>::infinity();
-        const std::size_t j = tile(ring, i);
-        half_slab h{dir_.cosine[index(i)],
-                    dir_.sine[index(i)],
-                    apothem_[j],
-                    ring == 0 ? -infinite : edge_[index(ring)],
-                    ring + 1 == rings_ ? infinite : edge_[index(ring + 1)],
-                    static_cast<std::int32_t>(j) + first_lateral_facet};
-        if (ahead != 0.0)
-            h.apothem -= velocity_[j] * ahead, h.low += edge_velocity(ring) * ahead,
-                h.high += edge_velocity(ring + 1) * ahead;
-        return h;
-    }
-    /// Collects the tiles within r + margin of x, of the rings around it; returns the deepest overlap with a single one
-    /// (m), 0 without any. facing: the column in front of x.
-    double gather(const vec3& x, double r, double margin, double ahead, const surroundings& around, int facing,
-                  std::array<half_slab, max_slabs>& slabs, std::size_t& n) const;
-    void refresh();
-    void check_state() const;
-    double lateral_force(std::span<const facet_load> loads) const {
-        double sum = 0.0;
-        for (int f = first_lateral_facet; f < facet_count(); ++f) sum += loads[index(f)].force;
-        return sum;
-    }
-    /// A tile that shows less than 5 % of its regular width is led by its neighbours: its own area says nothing.
-    bool hidden(int ring, int i) const {
-        return visible_[tile(ring, i)].width() < 0.05 * regular_width(around_, ring_smallest_[index(ring)]);
-    }
 
     struct unit_load {
         facet_load load;
@@ -315,20 +87,6 @@ template <moving_unit Unit> class faceted_cylinder {
     void servo_wall(const drive& d, double dt, std::span<const coupling> couplings);
     void control_gaps();
 
-    cylinder_settings set_;
-    int rings_ = 1;
-    int around_ = 0;
-    double half_width_ = 0.0;
-    directions dir_;
-    platens platens_;
-    std::vector<double> apothem_;  // per tile, ring-major
-    std::vector<double> velocity_; // per tile, inward
-    std::vector<interval> visible_;
-    std::vector<double> ring_smallest_; // per ring: least apothem
-    std::vector<double> edge_;          // heights (m): ring k lies between edge_[k] and edge_[k + 1]
-    double volume_ = 0.0;
-    double lateral_area_ = 0.0;
-    double lateral_speed_ = 0.0;      // largest |velocity_|
     std::vector<control::calm> calm_; // per unit
     std::vector<std::uint8_t> latch_; // columns first, then rings
     std::vector<control::chain> chains_;
@@ -340,169 +98,18 @@ template <moving_unit Unit> class faceted_cylinder {
 
 // --- implementation ------------------------------------------------------------------------------------------------
 
-template <moving_unit Unit> cylinder_settings faceted_cylinder<Unit>::cylinder_of(const vessel_settings& s) {
-    cylinder_settings c;
-    c.radius = s.radius;
-    c.bottom = s.bottom;
-    c.top = s.top;
-    c.rings = s.rings;
-    c.tiles_per_ring = s.tiles_per_ring;
-    c.platen_stiffness = s.platen_stiffness;
-    c.tile_stiffness = s.wall_stiffness;
-    c.smallest_radius = s.smallest_radius;
-    c.largest_gap = s.largest_gap;
-    c.contact_stiffness_floor = s.contact_stiffness_floor;
-    return c;
-}
-
-/// Advice on the number of rings.
-template <moving_unit Unit> std::string faceted_cylinder<Unit>::most_rings(const vessel_settings& s) {
-    const double height = s.top - s.bottom, pebble = 2.0 * s.smallest_radius;
-    int most = static_cast<int>(height / pebble);
-    if (most > 0 && height / most < pebble) --most; // by rounding
-    return most > 0 ? fmt::format("Take {} rings at most.", most) : "Make the specimen higher.";
-}
-/// Advice on the number of tiles around the axis.
-template <moving_unit Unit> std::string faceted_cylinder<Unit>::most_around(const vessel_settings& s) {
-    int most = s.tiles_per_ring;
-    while (most >= 6 && regular_width(most, s.radius) < 2.0 * s.smallest_radius) --most;
-    return most >= 6 ? fmt::format("Take {} tiles per ring at most.", most) : "Make the specimen wider.";
-}
-
-template <moving_unit Unit> faceted_cylinder<Unit> faceted_cylinder<Unit>::made(const vessel_settings& s) {
-    const auto demand = [](bool good, const char* name, int value, const char* allowed, const std::string& way_out) {
-        if (!good) throw input_error(name, fmt::format("{}", value), allowed, way_out);
-    };
-    const double pebble = 2.0 * s.smallest_radius;
-    demand(s.tiles_per_ring >= 6, "tiles_per_ring", s.tiles_per_ring, ">= 6", "The paper uses 20.");
-    demand(regular_width(s.tiles_per_ring, s.radius) >= pebble, "tiles_per_ring", s.tiles_per_ring,
-           "tiles at least as wide as the smallest pebble", most_around(s));
-    if constexpr (Unit != moving_unit::wall) {
-        demand(s.rings >= 1, "rings", s.rings, ">= 1", "The paper uses 12, 24 and 36.");
-        demand((s.top - s.bottom) / s.rings >= pebble, "rings", s.rings,
-               "tiles at least as high as the smallest pebble", most_rings(s));
-    }
-    return faceted_cylinder(cylinder_of(s));
-}
-
 template <moving_unit Unit>
-faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings) : set_(settings) {
-    const auto demand = [](bool good, const char* name, double value, const char* allowed, const char* way_out) {
-        if (!good)
-            throw input_error(std::string("cylinder_settings.") + name, fmt::format("{}", value), allowed, way_out);
-    };
-    const char* const in_si = "Give the specimen in metres and newtons.";
-    demand(set_.radius > 0.0 && std::isfinite(set_.radius), "radius", set_.radius, "> 0 m", in_si);
-    demand(set_.top > set_.bottom, "top", set_.top, "above bottom", in_si);
-    demand(set_.rings >= 1, "rings", set_.rings, ">= 1", "The paper uses 12, 24 and 36.");
-    demand(set_.tiles_per_ring >= 6, "tiles_per_ring", set_.tiles_per_ring, ">= 6", "The paper uses 20.");
-    demand(set_.smallest_radius > 0.0, "smallest_radius", set_.smallest_radius, "> 0 m", in_si);
-    demand(set_.platen_stiffness > 0.0, "platen_stiffness", set_.platen_stiffness, "> 0 N/m", in_si);
-    demand(set_.tile_stiffness > 0.0, "tile_stiffness", set_.tile_stiffness, "> 0 N/m", in_si);
-    demand(set_.contact_stiffness_floor > 0.0, "contact_stiffness_floor", set_.contact_stiffness_floor, "> 0 N/m",
-           "Take the stiffness of one pebble-tile contact.");
-    demand(set_.gaps.closing > 0.0 && set_.gaps.closing < 1.0, "gaps.closing", set_.gaps.closing, "in (0, 1)", "");
-    demand(set_.gaps.release > 0.0 && set_.gaps.release <= 1.0, "gaps.release", set_.gaps.release, "in (0, 1]", "");
-    if (set_.largest_gap == 0.0) set_.largest_gap = 2.0 * set_.smallest_radius;
-    demand(set_.largest_gap > 0.0, "largest_gap", set_.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
-    if (set_.largest_step == 0.0) set_.largest_step = set_.largest_gap;
-    demand(set_.largest_step > 0.0, "largest_step", set_.largest_step, "> 0 m", "0 takes largest_gap.");
-    if (set_.largest_radius == 0.0) set_.largest_radius = 1.6 * set_.radius;
-    demand(set_.largest_radius > set_.radius, "largest_radius", set_.largest_radius, "above radius",
-           "0 takes 1.6 radius.");
-
-    rings_ = Unit == moving_unit::wall ? 1 : set_.rings;
-    around_ = set_.tiles_per_ring;
-    half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
-    dir_ = directions(around_);
-    platens_ = {set_.bottom, set_.top, {}};
-    const std::size_t tiles = index(rings_) * index(around_);
-    apothem_.assign(tiles, set_.radius);
-    velocity_.assign(tiles, 0.0);
+faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings)
+    : tile_rings(Unit == moving_unit::wall ? 1 : settings.rings, checked(settings)) {
     calm_.resize(index(rings_) * index(units_around()));
-    visible_.resize(tiles);
-    ring_smallest_.resize(index(rings_));
-    edge_.resize(index(rings_) + 1);
     if constexpr (Unit != moving_unit::wall) {
         const int columns = units_around();
         for (int i = 0; i < columns; ++i) chains_.push_back({i, around_, rings_, false, i * rings_, set_.largest_gap});
         if constexpr (Unit == moving_unit::tile)
             for (int k = 0; k < rings_; ++k)
                 chains_.push_back({k * around_, 1, around_, true, columns * rings_ + k * around_, set_.largest_step});
-        latch_.assign(Unit == moving_unit::tile ? 2 * tiles : index(rings_), 0);
+        latch_.assign(Unit == moving_unit::tile ? 2 * apothem_.size() : index(rings_), 0);
     }
-    refresh();
-    check_state();
-}
-
-template <moving_unit Unit>
-double faceted_cylinder<Unit>::gather(const vec3& x, double r, double margin, double ahead, const surroundings& around,
-                                      int facing, std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
-    n = 0;
-    double deepest = 0.0;
-    std::array<double, max_slabs> overlap;
-    const auto look_at =
-        [&](int i) { // the tiles of column i; false where even the nearest of all rings is out of reach
-            if (x.x * dir_.cosine[index(i)] + x.y * dir_.sine[index(i)] + (r + margin) <= around.least) return false;
-            for (int k = around.first; k <= around.last; ++k) {
-                const half_slab h = slab(k, i, ahead);
-                const double depth = r - separate(h, x).distance;
-                if (depth <= -margin) continue;
-                deepest = std::max(deepest, depth);
-                std::size_t at = n;
-                if (n == slabs.size()) { // a sphere that spans very many tiles: the shallowest makes room
-                    at = static_cast<std::size_t>(std::min_element(overlap.begin(), overlap.end()) - overlap.begin());
-                    if (overlap[at] >= depth) continue;
-                } else
-                    ++n;
-                slabs[at] = h;
-                overlap[at] = depth;
-            }
-            return true;
-        };
-    bool more = look_at(facing);
-    for (int m = 1; 2 * m < around_ && more; ++m) {
-        // by turns: a tile out of reach on one side rules out the next one on the other
-        const bool right = look_at(dir_.wrap(facing + m));
-        more = look_at(dir_.wrap(facing - m)) && right;
-    }
-    return deepest;
-}
-
-template <moving_unit Unit> void faceted_cylinder<Unit>::refresh() {
-    double around = 0.0, area = 0.0; // summed over rings
-    for (int k = 0; k < rings_; ++k) {
-        const auto ring = std::span<const double>(apothem_).subspan(tile(k, 0), index(around_));
-        const double smallest = *std::min_element(ring.begin(), ring.end());
-        for (int i = 0; i < around_; ++i) {
-            const interval seen = visible(dir_, ring, i, half_width_, smallest);
-            visible_[tile(k, i)] = seen;
-            around += seen.width();
-            area += 0.5 * seen.width() * ring[index(i)];
-        }
-        ring_smallest_[index(k)] = smallest;
-    }
-    for (int k = 0; k <= rings_; ++k) edge_[index(k)] = bottom() + k * tile_height();
-    volume_ = area * tile_height();
-    lateral_area_ = around * tile_height();
-}
-
-template <moving_unit Unit> void faceted_cylinder<Unit>::check_state() const {
-    const auto stop = [this](std::string what, std::string where) {
-        throw run_error({std::move(what), std::move(where), fmt::format("specimen height {:.6g} m", height()),
-                         "the load moves the boundary faster than grains can resist, or no grain is left to resist",
-                         "load more slowly, lower the speed limit of the servo, or use more rings"});
-    };
-    // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
-    // failed anyway.
-    const double least = 0.5 * set_.smallest_radius;
-    if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
-    for (std::size_t j = 0; j < apothem_.size(); ++j)
-        if (!(apothem_[j] >= least && apothem_[j] <= set_.largest_radius))
-            stop("The membrane is torn",
-                 fmt::format("tile {} of ring {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m)",
-                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least,
-                             set_.largest_radius));
 }
 
 template <moving_unit Unit>
@@ -632,42 +239,6 @@ double faceted_cylinder<Unit>::confining_rms(std::span<const facet_load> loads, 
             ++count;
         }
     return count > 0 ? std::sqrt(sum / count) : 0.0;
-}
-
-template <moving_unit Unit>
-std::vector<facet_view> faceted_cylinder<Unit>::view(std::span<const facet_load> loads) const {
-    std::vector<facet_view> out;
-    double side = 0.0;
-    for (const double r : apothem_) side = std::max(side, 1.05 * r);
-    for (int f = 0; f < first_lateral_facet; ++f) {
-        const double z = f == bottom_platen ? platens_.bottom : platens_.top;
-        out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
-                       loads[index(f)].force / section(),
-                       area(f),
-                       -1,
-                       -1});
-    }
-    for (int k = 0; k < rings_; ++k) {
-        const double low = edge_[index(k)], high = edge_[index(k + 1)];
-        for (int i = 0; i < around_; ++i) {
-            const std::size_t j = tile(k, i);
-            const interval s = visible_[j];
-            if (s.width() <= 0.0) continue;
-            const vec3 n{dir_.cosine[index(i)], dir_.sine[index(i)], 0.0};
-            const vec3 t{-n.y, n.x, 0.0};
-            const vec3 up{0.0, 0.0, 1.0};
-            const vec3 left = apothem_[j] * n + s.low * t;
-            const vec3 right = apothem_[j] * n + s.high * t;
-            const int facet = static_cast<int>(j) + first_lateral_facet;
-            const double a = area(facet);
-            out.push_back({{left + low * up, right + low * up, right + high * up, left + high * up},
-                           loads[index(facet)].force / a,
-                           a,
-                           k,
-                           i});
-        }
-    }
-    return out;
 }
 
 } // namespace clast::boundaries
