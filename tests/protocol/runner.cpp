@@ -14,67 +14,11 @@
 
 #include <catch.hpp>
 
-#include "engine/scenes.hpp"
+#include "small_test.hpp"
 
 using namespace clast;
 using namespace clast::literals;
-
-namespace {
-
-using rigid = scenes::unbreakable<boundaries::solid_strips>;
-using test_type = triaxial_test<rigid>;
-
-triaxial_setup<rigid> setup() {
-    return {.grain = shapes::tetrahedron_4(0.02),
-            .diameter = 66_mm,
-            .height = 75_mm,
-            .confining = 200_kPa,
-            .breakage = {},
-            .replacement = {},
-            .porosity = 0.6,
-            .tiles_per_ring = 8,
-            .inertial_number = 5e-3};
-}
-stage compact() { return protocol::preparation(66_mm, 75_mm)[0]; }
-stage consolidate() {
-    stage s = protocol::consolidation(200_kPa);
-    s.end = until::stresses_within(0.02) && until::unbalanced_below(0.02);
-    return s;
-}
-stage rest(std::int64_t n) { return {.name = "rest", .end = until::steps(n)}; }
-
-struct recorder : observer {
-    std::vector<std::string> begun;
-    std::vector<sample> rows;
-    std::function<void()> pause;
-    void on_stage(const std::string& name, bool begins) override {
-        if (begins) begun.push_back(name);
-    }
-    void on_row(const sample& s) override { rows.push_back(s); }
-    void on_pause() override {
-        if (pause) pause();
-    }
-};
-using names = std::vector<std::string>;
-
-/// What a run that must fail says.
-failure failure_of(test_type& test, recorder& watch) {
-    try {
-        test.run(watch);
-    } catch (const run_error& e) {
-        return e.details;
-    }
-    return {};
-}
-void check_complete(const failure& f) {
-    CHECK(!f.what.empty());
-    CHECK(!f.where.empty());
-    CHECK(f.when.find("step") != std::string::npos);
-    CHECK(!f.why.empty());
-    CHECK(!f.advice.empty());
-}
-
-} // namespace
+using namespace small_test;
 
 TEST_CASE("a protocol of one's own: isotropic compression, a little shear, and back to no deviator") {
     stage shear = protocol::shear(200_kPa, 2_percent, 5e-3);
@@ -173,109 +117,6 @@ TEST_CASE("a stage for the unrelaxed is left out where the one before has ended 
     CHECK(short_one.begun == names{"rest"});
 }
 
-TEST_CASE("a NaN, an escaped grain and pebbles pressed into each other stop the run with an explanation") {
-    {
-        test_type test(setup(), {rest(2000)});
-        test.sim().grains.motion[5].v.x = std::numeric_limits<double>::quiet_NaN();
-        recorder watch;
-        const failure f = failure_of(test, watch);
-        check_complete(f);
-        CHECK(f.where == "grain 5");
-    }
-    {
-        test_type test(setup(), {rest(2000)});
-        test.protocol().plan.look_every = 1; // the wall would throw it back
-        test.sim().grains.motion[7].x = {0.3, 0.0, 0.0};
-        recorder watch;
-        const failure f = failure_of(test, watch);
-        check_complete(f);
-        CHECK(f.what.find("grain 7 escaped") != std::string::npos);
-        CHECK(f.where.find("rest") != std::string::npos);
-    }
-    {
-        test_type test(setup(), {rest(2000)});
-        test.protocol().plan.look_every = 1;
-        bodies::clumps& s = test.sim().grains;
-        s.turning[1].q = s.turning[0].q;
-        s.motion[1].x = s.motion[0].x + vec3{0.002, 0.0, 0.0};
-        for (body_motion& m : s.motion) m.v = {};
-        recorder watch;
-        int step = 0;
-        watch.pause = [&] { // held in place until the lists have seen it
-            if (++step < 3) s.motion[1].x = s.motion[0].x + vec3{0.002, 0.0, 0.0};
-        };
-        const failure f = failure_of(test, watch);
-        check_complete(f);
-        CHECK(f.what.find("overlap") != std::string::npos);
-    }
-}
-
-TEST_CASE("a stage is announced before its first row and ends after its last") {
-    struct listener : observer {
-        names heard;
-        void on_stage(const std::string& name, bool begins) override { heard.push_back((begins ? "+" : "-") + name); }
-        void on_row(const sample& s) override { heard.push_back(s.stage); }
-    } watch;
-    test_type test(setup(), {rest(100), {.name = "more", .end = until::steps(100)}});
-    REQUIRE(test.run(watch));
-    CHECK(watch.heard == names{"+rest", "rest", "rest", "-rest", "+more", "more", "more", "-more"});
-}
-
-namespace {
-struct looker : scene_observer<rigid> {
-    std::vector<double> rows, scenes, forces;
-    std::vector<std::int64_t> steps;
-    int pauses = 0;
-    void on_row(const sample& s) override {
-        CHECK(rows.size() == scenes.size());
-        rows.push_back(s.time);
-    }
-    void on_scene(const scene<rigid>& s, const sample& row) override {
-        scenes.push_back(row.time);
-        CHECK(s.totals.steps == row.steps);
-        double sum = 0.0;
-        s.each_contact([&](const force_row& c, const pebble_pair&) { sum += norm(c.force); });
-        forces.push_back(sum);
-        for (std::size_t p = 0; p < s.grains.pebble_count(); ++p) { // all of them are where they are
-            const body_motion& m = s.grains.motion[s.grains.body_of(static_cast<std::int32_t>(p))];
-            const shape_pebble& own = s.grains.shapes[0].pebbles[p % 4];
-            const quaternion& q = s.grains.turning[static_cast<std::size_t>(s.grains.mother[p])].q;
-            if (norm(s.grains.pebbles[p].x - m.x - rotate(q, own.offset)) > 1e-12) FAIL("pebble " << p);
-        }
-    }
-    std::int64_t every_steps() const override { return 83; }
-    void on_step(const scene<rigid>& s) override { steps.push_back(s.totals.steps); }
-    bool stop_requested() override { return ++pauses % 3 == 0; }
-};
-} // namespace
-
-TEST_CASE("an observer of scenes sees each at its row and every so many steps, and changes no bit") {
-    const std::vector<stage> stages{compact(), rest(300)};
-    test_type test(setup(), stages), stopped(setup(), stages), unseen(setup(), stages);
-    looker watch;
-    while (!test.run(watch)) {
-    }
-    CHECK(watch.scenes == watch.rows);
-    CHECK(watch.rows.size() >= 4);
-    CHECK(watch.forces.back() > 0.0);
-    REQUIRE(watch.steps.size() == static_cast<std::size_t>(test.sim().totals().steps / 83));
-    for (std::size_t k = 0; k < watch.steps.size(); ++k) CHECK(watch.steps[k] == 83 * static_cast<std::int64_t>(k + 1));
-
-    looker first, second; // another goes on from a checkpoint
-    REQUIRE(!stopped.run(first));
-    test_type resumed(setup(), stages);
-    from_bytes(to_bytes(stopped), resumed);
-    while (!resumed.run(second)) {
-    }
-    first.steps.insert(first.steps.end(), second.steps.begin(), second.steps.end());
-    CHECK(first.steps == watch.steps);
-
-    recorder plain;
-    REQUIRE(unseen.run(plain));
-    CHECK(checksum(test.sim()) == checksum(unseen.sim()));
-    CHECK(checksum(resumed.sim()) == checksum(unseen.sim()));
-}
-
 TEST_CASE("the energy of a test under gravity closes in the column of its residual") {
     struct heavy : rigid {
         using field = fields::gravity;
@@ -298,5 +139,3 @@ TEST_CASE("the energy of a test under gravity closes in the column of its residu
     CHECK(std::abs(test.sim().potential_energy()) > 2e-3 * last.boundary_work);
     CHECK(std::abs(last.energy_residual) < 5e-3);
 }
-
-TEST_CASE("a plan without stages is refused") { CHECK_THROWS_AS(test_type(setup(), {}), input_error); }

@@ -18,53 +18,17 @@
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/measure/pebbles.hpp>
 #include <clast/measure/sample.hpp>
 #include <clast/measure/stress.hpp>
+#include <clast/measure/totals.hpp>
+#include <clast/protocol/check_specimen.hpp>
+#include <clast/protocol/observer.hpp>
 #include <clast/protocol/stage.hpp>
+#include <clast/protocol/test_plan.hpp>
 #include <clast/protocol/vessel.hpp>
 
 namespace clast {
-
-/// What a runner reports to. Derive and override what you need; called once in many steps, never per contact.
-class observer {
-  public:
-    virtual ~observer() = default;
-    virtual void on_row(const sample&) {}                         ///< one row of the series
-    virtual void on_events(const std::vector<fracture_event>&) {} ///< bonds broken since the last call
-    /// A stage begins, before its first row, or has ended, after its last.
-    virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
-    virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
-    /// Between two steps, with all events reported: the place to save a checkpoint.
-    virtual void on_pause() {}
-    virtual bool stop_requested() { return false; } ///< true: run() returns at the next pause
-};
-
-/// An observer that looks at the scene itself: bodies, contacts, loads. It can change nothing. All pebbles stand where
-/// they are, also those that touch nothing. What it finds out at rows or steps it keeps itself.
-template <triaxial_policies P> class scene_observer : public observer {
-  public:
-    /// With every row, after on_row.
-    virtual void on_scene(const scene<P>&, const sample&) {}
-    /// Steps between two calls of on_step, counted from the beginning of the run, stopped and resumed or not; 0: none.
-    virtual std::int64_t every_steps() const { return 0; }
-    virtual void on_step(const scene<P>&) {} ///< after a step whose number is a multiple of every_steps()
-};
-
-/// Sizes and rates of a test. SI units.
-struct test_plan {
-    std::vector<stage> stages;
-    double radius = 0.0;                   ///< target apothem of the specimen (m)
-    double height = 0.0;                   ///< target height (m)
-    double grain_diameter = 0.02;          ///< d50 of Eq. 2 (m)
-    double confining = 2e6;                ///< scale of stresses: target of the consolidation (Pa)
-    double inertial_number = 1e-4;         ///< largest during loading (paper: 1e-4)
-    double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
-    double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
-    double servo_gain = 0.5;
-    double row_strain = 5e-4;      ///< axial strain between rows while strain is the clock
-    std::int64_t row_steps = 2000; ///< steps between rows otherwise, and at most in any stage (x 10)
-    std::int64_t look_every = 100; ///< steps between looks at conditions, escapes and requests to stop
-};
 
 /// Runs the stages of a plan on an engine. State is complete and archived: saving, or not, changes no bit.
 template <class P> class runner {
@@ -79,10 +43,7 @@ template <class P> class runner {
     /// `membrane`: of the boundary that takes the vessel's place in a stage with `membrane_here`, at the size that the
     /// vessel has then.
     runner(engine_type& e, test_plan p, const boundaries::vessel_settings& membrane)
-        : sim(e), plan(std::move(p)), membrane_(membrane) {
-        if (plan.stages.empty())
-            throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
-        for (stage& s : plan.stages) take_from_setup(s.axial, plan.height), take_from_setup(s.lateral, plan.radius);
+        : sim(e), plan(protocol::completed(std::move(p))), membrane_(membrane) {
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         reference_height_ = sim.boundary.height();
@@ -115,7 +76,7 @@ template <class P> class runner {
             if (stage_steps_ % plan.look_every != 0) continue;
             clock();
             look();
-            check_specimen();
+            protocol::check_specimen(sim, deepest_, current().name, [this] { return when(); });
             const bool ended = current().end.met(view_);
             const double part = current().end.progress(view_);
             watch.on_progress(measure(), part,
@@ -141,7 +102,6 @@ template <class P> class runner {
     sample measure() const {
         sample s;
         const auto& b = sim.boundary;
-        s.time = sim.time();
         s.stage = stage_name();
         s.height = b.height();
         s.volume = b.volume();
@@ -169,46 +129,17 @@ template <class P> class runner {
         const double curvature = 2.0 / plan.grain_diameter;
         const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, c.mean_overlap, curvature, curvature});
         s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
-        const engine_totals& t = sim.totals();
-        s.replaced = t.replaced;
-        s.broken_tension = t.broken_tension;
-        s.broken_shear = t.broken_shear;
-        s.kinetic_energy = sim.kinetic_energy();
-        s.elastic_energy = sim.elastic_energy();
-        const body_losses lost = sim.losses();
-        s.boundary_work = t.boundary_work;
-        s.friction_dissipation = lost.friction;
-        s.damping_dissipation = lost.damping;
-        s.bond_dissipation = t.bond_dissipation;
+        measure::add_totals(sim, s);
         // of the energy that went through the specimen in this stage: work, or what was lost where no wall works
-        const double lost_here = lost.friction + lost.damping - stage_losses_;
-        const double work = std::max(std::abs(t.boundary_work - stage_work_), lost_here);
+        const double lost_here = s.friction_dissipation + s.damping_dissipation - stage_losses_;
+        const double work = std::max(std::abs(s.boundary_work - stage_work_), lost_here);
         s.energy_residual = work > 0.0 ? (unexplained(s) - stage_residual_) / work : 0.0;
-        s.steps = t.steps;
-        s.dt = sim.dt();
         s.wall_time = wall_time_;
         return s;
     }
 
     /// Pebbles for pictures; displacement counts from the reference state (0 before it).
-    std::vector<pebble_view> pebbles() {
-        sim.place_all();
-        const auto& s = sim.grains;
-        std::vector<pebble_view> out(s.pebble_count());
-        for (std::size_t p = 0; p < out.size(); ++p) {
-            const auto pebble = static_cast<std::int32_t>(p);
-            const std::size_t g = s.group_of(pebble);
-            pebble_view& v = out[p];
-            v.position = s.pebbles[p].x;
-            v.radius = s.pebbles[p].radius;
-            v.grain = s.number_of(g);
-            v.fragment = static_cast<std::int32_t>(s.pebbles_of(g).begin);
-            v.velocity = s.velocity_of(pebble);
-            if (!reference_.empty()) v.displacement = s.pebbles[p].x - reference_[p];
-            sim.breakage().describe(s, p, v);
-        }
-        return out;
-    }
+    std::vector<pebble_view> pebbles() { return measure::pebbles_of(sim, reference_); }
     std::vector<facet_view> facets() const { return sim.boundary.view(sim.loads()); }
 
     template <class A> void archive(A& a) {
@@ -219,16 +150,6 @@ template <class P> class runner {
     }
 
   private:
-    /// Makes a drive that counts in parts of the setup one of its own.
-    void take_from_setup(axis_drive& a, double size) const {
-        if (!a.of_setup) return;
-        using kind = axis_drive::kind;
-        a.value *= a.how == kind::reach      ? size
-                   : a.how == kind::stress   ? plan.confining
-                   : a.how == kind::inertial ? plan.inertial_number
-                                             : 1.0;
-        a.of_setup = false;
-    }
     const stage& current() const { return plan.stages[stage_]; }
     double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
     /// What the audit cannot explain in a state just measured (J).
@@ -442,32 +363,6 @@ template <class P> class runner {
         if (events.empty()) return;
         for (fracture_event& e : events) e.axial_strain = axial_strain();
         watch.on_events(events);
-    }
-
-    /// Stops the run where the specimen is no longer one.
-    void check_specimen() {
-        const auto& s = sim.grains;
-        for (std::size_t p = 0; p < s.pebble_count(); ++p) {
-            const auto pebble = static_cast<std::int32_t>(p);
-            // whole grains are looked at by their centre, balls by their own
-            const std::size_t owner = s.body_of(pebble);
-            const bool whole = owner < s.body_count();
-            if (whole && p != s.pebbles_of(owner).begin) continue;
-            const vec3 x = sim.centre_of(pebble);
-            if (!sim.boundary.outside(x, s.pebbles[p].radius)) continue;
-            throw run_error(
-                {fmt::format("grain {} escaped ({} of it)", s.number_of(s.group_of(pebble)),
-                             whole ? "all" : "a fragment"),
-                 fmt::format("stage '{}', at x = {:.4f}, y = {:.4f}, z = {:.4f} m", current().name, x.x, x.y, x.z),
-                 when(), "the boundary left a gap as wide as a pebble, or it was overrun at a high stress",
-                 "use more rings or tiles, a lower stress or a smaller inertial number"});
-        }
-        if (deepest_.max_overlap_over_r >= 1.0)
-            throw run_error({fmt::format("pebbles {} and {} overlap by {:.2f} of the smaller radius",
-                                         deepest_.deepest_i, deepest_.deepest_j, deepest_.max_overlap_over_r),
-                             fmt::format("stage '{}'", current().name), when(),
-                             "contacts are soft against the stress: two centres are about to pass each other",
-                             "lower the stress or raise the contact stiffness"});
     }
 
     boundaries::vessel_settings membrane_;

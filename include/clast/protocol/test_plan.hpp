@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Stages, sizes and rates of a test, as a runner takes them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <clast/core/errors.hpp>
+#include <clast/protocol/stage.hpp>
+
+namespace clast {
+
+/// Sizes and rates of a test. SI units.
+struct test_plan {
+    std::vector<stage> stages;
+    double radius = 0.0;                   ///< target apothem of the specimen (m)
+    double height = 0.0;                   ///< target height (m)
+    double grain_diameter = 0.02;          ///< d50 of Eq. 2 (m)
+    double confining = 2e6;                ///< scale of stresses: target of the consolidation (Pa)
+    double inertial_number = 1e-4;         ///< largest during loading (paper: 1e-4)
+    double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
+    double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
+    double servo_gain = 0.5;
+    double row_strain = 5e-4;      ///< axial strain between rows while strain is the clock
+    std::int64_t row_steps = 2000; ///< steps between rows otherwise, and at most in any stage (x 10)
+    std::int64_t look_every = 100; ///< steps between looks at conditions, escapes and requests to stop
+};
+
+namespace protocol {
+
+/// Makes a drive that counts in parts of the setup one of its own. size: target of its axis (m).
+inline void take_from_setup(axis_drive& a, const test_plan& plan, double size) {
+    if (!a.of_setup) return;
+    using kind = axis_drive::kind;
+    a.value *= a.how == kind::reach      ? size
+               : a.how == kind::stress   ? plan.confining
+               : a.how == kind::inertial ? plan.inertial_number
+                                         : 1.0;
+    a.of_setup = false;
+}
+/// The plan with drives in SI units alone. Throws input_error where it has no stage.
+inline test_plan completed(test_plan plan) {
+    if (plan.stages.empty())
+        throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
+    for (stage& s : plan.stages) {
+        take_from_setup(s.axial, plan, plan.height);
+        take_from_setup(s.lateral, plan, plan.radius);
+    }
+    return plan;
+}
+
+} // namespace protocol
+
+} // namespace clast
