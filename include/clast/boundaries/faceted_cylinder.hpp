@@ -39,7 +39,7 @@ enum class moving_unit { wall, ring, tile };
 
 /// Rings of tiles (tile_rings: numbers of facets, contact, measures) whose velocities follow from their loads: a servo
 /// for each part that moves on its own, and gap control, which keeps the membrane closed.
-template <moving_unit Unit> class faceted_cylinder : public tile_rings {
+template <moving_unit Unit> class faceted_cylinder : public tile_rings<> {
   public:
     /// Throws input_error where a setting makes no sense.
     explicit faceted_cylinder(const cylinder_settings& settings);
@@ -70,7 +70,7 @@ template <moving_unit Unit> class faceted_cylinder : public tile_rings {
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        tile_rings::archive(a);
+        tile_rings<>::archive(a);
         a(calm_, latch_, chains_, backward_, counters_);
     }
 
@@ -100,7 +100,7 @@ template <moving_unit Unit> class faceted_cylinder : public tile_rings {
 
 template <moving_unit Unit>
 faceted_cylinder<Unit>::faceted_cylinder(const cylinder_settings& settings)
-    : tile_rings(Unit == moving_unit::wall ? 1 : settings.rings, checked(settings)) {
+    : tile_rings<>(Unit == moving_unit::wall ? 1 : settings.rings, checked(settings)) {
     calm_.resize(index(rings_) * index(units_around()));
     if constexpr (Unit != moving_unit::wall) {
         const int columns = units_around();

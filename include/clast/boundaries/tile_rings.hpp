@@ -35,7 +35,9 @@ namespace clast::boundaries {
 /// place while the platens pass along it, the more literal reading of the paper, was tried: grains then drag along the
 /// ledges between rings, which carried 2 to 5 % of the axial load of a half-scale test, and slivers of rings at the
 /// platens, too low to find a grain, put the mean confining stress wrong by up to 1 %.
-class tile_rings {
+///
+/// A template without a choice: what it does is compiled only in programs that have such a wall.
+template <class = void> class tile_rings {
   public:
     const cylinder_settings& settings() const { return set_; }
 
@@ -267,7 +269,8 @@ class tile_rings {
 
 // --- implementation ------------------------------------------------------------------------------------------------
 
-inline tile_rings::tile_rings(int rings, const cylinder_settings& of_checked_sizes)
+template <class X>
+tile_rings<X>::tile_rings(int rings, const cylinder_settings& of_checked_sizes)
     : set_(of_checked_sizes), rings_(rings) {
     around_ = set_.tiles_per_ring;
     half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
@@ -283,8 +286,9 @@ inline tile_rings::tile_rings(int rings, const cylinder_settings& of_checked_siz
     check_state();
 }
 
-inline double tile_rings::gather(const vec3& x, double r, double margin, double ahead, const surroundings& around,
-                                 int facing, std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
+template <class X>
+double tile_rings<X>::gather(const vec3& x, double r, double margin, double ahead, const surroundings& around,
+                             int facing, std::array<half_slab, max_slabs>& slabs, std::size_t& n) const {
     n = 0;
     double deepest = 0.0;
     std::array<double, max_slabs> overlap;
@@ -316,7 +320,7 @@ inline double tile_rings::gather(const vec3& x, double r, double margin, double 
     return deepest;
 }
 
-inline void tile_rings::refresh() {
+template <class X> void tile_rings<X>::refresh() {
     double around = 0.0, area = 0.0; // summed over rings
     for (int k = 0; k < rings_; ++k) {
         const auto ring = std::span<const double>(apothem_).subspan(tile(k, 0), index(around_));
@@ -334,7 +338,7 @@ inline void tile_rings::refresh() {
     lateral_area_ = around * tile_height();
 }
 
-inline void tile_rings::check_state() const {
+template <class X> void tile_rings<X>::check_state() const {
     const auto stop = [this](std::string what, std::string where) {
         throw run_error({std::move(what), std::move(where), fmt::format("specimen height {:.6g} m", height()),
                          "the load moves the boundary faster than grains can resist, or no grain is left to resist",
@@ -352,7 +356,7 @@ inline void tile_rings::check_state() const {
                              set_.largest_radius));
 }
 
-inline std::vector<facet_view> tile_rings::view(std::span<const facet_load> loads) const {
+template <class X> std::vector<facet_view> tile_rings<X>::view(std::span<const facet_load> loads) const {
     std::vector<facet_view> out;
     double side = 0.0;
     for (const double r : apothem_) side = std::max(side, 1.05 * r);
