@@ -11,6 +11,7 @@
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/solid_strips.hpp>
+#include <clast/fields/gravity.hpp>
 
 #include <catch.hpp>
 
@@ -303,4 +304,32 @@ TEST_CASE("slender and flat grains pack as others do: their cloud takes the room
         CHECK(now.porosity == Approx(0.58).margin(0.02));
         CHECK(now.p < 10e3); // not squeezed: of 200 kPa to come
     }
+}
+
+TEST_CASE("a field of the setup acts in the test: grains of the cloud fall freely until they meet") {
+    struct heavy : rigid {
+        using field = fields::gravity;
+    };
+    triaxial_setup<heavy> s{.grain = shapes::tetrahedron_4(0.02),
+                            .diameter = 66_mm,
+                            .height = 75_mm,
+                            .confining = 200_kPa,
+                            .breakage = {},
+                            .replacement = {},
+                            .porosity = 0.62,
+                            .rings = 4,
+                            .tiles_per_ring = 8,
+                            .inertial_number = 5e-3,
+                            .damping = 0.0,
+                            .field = {{0.0, 0.0, -100.0}}};
+    triaxial_test<heavy> test(s, {{.name = "fall", .end = until::steps(100)}});
+    const bodies::clumps before = test.sim().grains;
+    observer quiet;
+    REQUIRE(test.run(quiet));
+    std::size_t free = 0;
+    for (std::size_t g = 0; g < before.grain_count(); ++g) {
+        const vec3 expected = before.motion[g].v + test.sim().time() * s.field.acceleration;
+        free += norm(test.sim().grains.motion[g].v - expected) < 1e-9 ? 1u : 0u;
+    }
+    CHECK(free > before.grain_count() / 2);
 }

@@ -77,8 +77,9 @@ template <class P> struct triaxial_setup {
     /// spheres, slender ones, get a larger one, in which these spheres take a quarter of the room.
     double vessel = 1.8;
     std::uint64_t seed = 1;
-    int threads = 1;         ///< never changes a result
-    std::int64_t rows = 500; ///< rows of the series over 25 % of strain
+    int threads = 1;                                 ///< never changes a result
+    std::int64_t rows = 500;                         ///< rows of the series over 25 % of strain
+    [[no_unique_address]] typename P::field field{}; ///< that acts on every grain: gravity, or one's own
 };
 
 /// Stages of the paper's protocol (section 2.3), as data. Take them, change them, or write your own.
@@ -351,7 +352,8 @@ template <class P> class triaxial_test {
                           .replacement = s.replacement,
                           .scheme = {.damping = s.damping},
                           .safety = s.safety,
-                          .run = execution(s.threads)},
+                          .run = execution(s.threads),
+                          .field = s.field},
                          std::move(sp), std::move(vessel));
     }
     static test_plan make_plan(const triaxial_setup<P>& s, std::vector<stage> stages) {
