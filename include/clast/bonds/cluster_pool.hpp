@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <clast/bonds/lattice.hpp>
+#include <clast/bonds/likeness.hpp>
 #include <clast/bonds/parallel.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -51,10 +52,8 @@ inline bool told_before(const break_report& a, const break_report& b) {
 /// pack() puts clusters that have about the same bonds left together, for a bond that is broken in all lanes costs
 /// nothing.
 ///
-/// A cluster of another size or density than the lattice (likeness) is computed as one of the lattice's own that is
-/// similar to it: with lengths over scale, forces over scale^4 density, moments and energies over scale^5 density,
-/// masses and times as they are, it obeys the same equations, but for stiffnesses (the factor is `alive` in a lane) and
-/// strengths. So sizes cost nothing in the loops.
+/// A cluster of another size or density than the lattice is computed as the similar one of the lattice's own
+/// (likeness): the factor of its stiffness is `alive` in a lane. So sizes cost nothing in the loops.
 ///
 /// A cluster is sub-cycled: external loads are frozen over an outer step, and the bonds are integrated with leapfrog
 /// steps small enough for the stiffest mode of the intact shape at its scale (removing bonds only lowers it).
@@ -91,7 +90,7 @@ class cluster_pool {
         strength_[seat] = strength / (to.scale * to.scale * to.density);
         const double stiffness = stiffness_of(to);
         for (std::size_t b = 0; b < bonds(); ++b) {
-            put(seat, b, scaled(born[b], {1.0 / to.scale, 1.0 / to.density}));
+            put(seat, b, scaled(born[b], to.inverse()));
             value(seat, b, alive) = stiffness;
         }
         intact_[seat] = static_cast<std::int32_t>(bonds());
@@ -147,13 +146,12 @@ class cluster_pool {
         double e = 0.0;
         for (std::size_t b = 0; b < bonds(); ++b)
             if (is_intact(cluster, b)) e += bonds::energy(shape_.bond[b], carried(seat_of(cluster), b));
-        return energy_ratio(like(cluster)) / stiffness_of(like(cluster)) * e;
+        return like(cluster).energy() / stiffness_of(like(cluster)) * e;
     }
     /// Elastic energy (J) of one bond of a cluster in a state.
     double energy_of(std::size_t cluster, std::size_t bond, const state& s) const {
         const likeness to = like(cluster);
-        return energy_ratio(to) / stiffness_of(to) *
-               bonds::energy(shape_.bond[bond], scaled(s, {1.0 / to.scale, 1.0 / to.density}));
+        return to.energy() / stiffness_of(to) * bonds::energy(shape_.bond[bond], scaled(s, to.inverse()));
     }
 
     /// Number of inner steps for an outer step (s) of a cluster: its highest mode turns by at most 1 rad per
@@ -194,7 +192,7 @@ class cluster_pool {
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
             const likeness& to = like_[batch * lanes + l];
-            const double per_length = 1.0 / to.scale, per_force = 1.0 / force_ratio(to);
+            const double per_length = 1.0 / to.scale, per_force = 1.0 / to.force();
             for (std::size_t i = 0; i < n; ++i) {
                 const ball_motion& ball = balls[l * n + i];
                 const pebble_load& external = load[l * n + i];
@@ -234,7 +232,7 @@ class cluster_pool {
         for (std::size_t l = 0; l < lanes; ++l) {
             if (live[l] == 0.0) continue;
             const double length = like_[batch * lanes + l].scale;
-            dissipated[l] *= energy_ratio(like_[batch * lanes + l]);
+            dissipated[l] *= like_[batch * lanes + l].energy();
             for (std::size_t i = 0; i < n; ++i)
                 for (int a = 0; a < 3; ++a) {
                     const std::size_t k = at(i, static_cast<std::size_t>(a), l);
@@ -264,23 +262,9 @@ class cluster_pool {
     enum field : std::size_t { normal_force = 0, shear = 1, twist = 4, bending = 5, alive = 8, fields = 9 };
     static constexpr std::int32_t nobody = -1;
 
-    /// Forces and energies of a cluster over those of the similar one.
-    static double force_ratio(const likeness& to) { return to.scale * to.scale * (to.scale * to.scale) * to.density; }
-    static double energy_ratio(const likeness& to) { return force_ratio(to) * to.scale; }
-    /// What is a state in the similar cluster, or the other way round.
-    static state scaled(const state& s, const likeness& to) {
-        const double force = force_ratio(to), moment = energy_ratio(to);
-        return {force * s.n, force * s.v, moment * s.mt, moment * s.mb};
-    }
-    /// Stiffness of bonds in the similar cluster over that of the lattice: what is k is k / (scale^3 density) there,
-    /// and k grows by a power of the scale.
-    double stiffness_of(const likeness& to) const {
-        double k = 1.0 / (to.scale * to.scale * to.scale * to.density);
-        for (int p = 0; p < shape_.stiffness_power; ++p) k *= to.scale;
-        return k;
-    }
-    /// Class of frequencies: quarters of an octave above that of the lattice, rounded up.
-    int class_of(const likeness& to) const { return static_cast<int>(std::ceil(2.0 * std::log2(stiffness_of(to)))); }
+    /// Stiffness of bonds in the similar cluster over that of the lattice, and class of frequencies.
+    double stiffness_of(const likeness& to) const { return to.stiffness(shape_.stiffness_power); }
+    int class_of(const likeness& to) const { return to.frequency_class(shape_.stiffness_power); }
     int class_of_batch(std::size_t batch) const {
         int most = std::numeric_limits<int>::min();
         for (std::size_t l = 0; l < lanes; ++l)

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <clast/bonds/likeness.hpp>
 #include <clast/bonds/parallel.hpp>
 #include <clast/core/symmetric.hpp>
 #include <clast/grains/shape.hpp>
@@ -22,12 +23,6 @@ struct pebble_load {
 struct bond_arms {
     double a; ///< from the ball at end a
     double b;
-};
-
-/// How a cluster differs from its shape in the material of the lattice: ratios, > 0.
-struct likeness {
-    double scale = 1.0;   ///< of sizes
-    double density = 1.0; ///< of densities
 };
 
 /// A shape held together by parallel bonds, in its body frame, at scale 1. Made once per shape and material; grains of

@@ -97,7 +97,8 @@ class grading {
             if (b.finer == a.finer) continue; // a gap stays one
             left += (b.finer - a.finer) * volume;
             // mass is even over log d, so numbers go with d^-3 and a share u of them is above d
-            const double q = std::pow(a.size / b.size, 3.0), mean = std::pow(a.size, 3.0) * -std::log(q) / (1.0 - q);
+            const double ratio = a.size / b.size, q = ratio * ratio * ratio;
+            const double mean = a.size * a.size * a.size * -std::log(q) / (1.0 - q); // of d^3
             const auto count = std::llround(std::max(0.0, left) / (per_cube * mean));
             for (long long i = 0; i < count; ++i) {
                 const double above = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
