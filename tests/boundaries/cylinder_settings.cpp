@@ -44,7 +44,7 @@ TEST_CASE("settings that make no membrane are refused by the name of the member"
     names(refusal([](auto& s) { s.rings = 0; }), "rings");
     names(refusal([](auto& s) { s.tiles_per_ring = 5; }), "tiles_per_ring");
     names(refusal([](auto& s) { s.smallest_radius = 0; }), "smallest_radius");
-    names(refusal([](auto& s) { s.largest_step = 0; }), "largest_step");
+    names(refusal([](auto& s) { s.largest_step = -1.0; }), "largest_step");
     names(refusal([](auto& s) { s.platen_stiffness = 0; }), "platen_stiffness");
     names(refusal([](auto& s) { s.tile_stiffness = 0; }), "tile_stiffness");
     names(refusal([](auto& s) { s.contact_stiffness_floor = 0; }), "contact_stiffness_floor");
@@ -56,6 +56,7 @@ TEST_CASE("settings that make no membrane are refused by the name of the member"
 
 TEST_CASE("gap and radius of a torn membrane follow from the sizes where they are not given") {
     CHECK(checked(paper()).largest_gap == 4.6e-3);
+    CHECK(checked(paper()).largest_step == 4.6e-3);
     CHECK(checked(paper()).largest_radius == 1.6 * 0.15);
     cylinder_settings given = paper();
     given.largest_gap = 0.01, given.largest_radius = 0.2;
@@ -70,7 +71,7 @@ TEST_CASE("a cylinder takes all that a vessel's settings say of one") {
     v.platen_stiffness = 6.0, v.wall_stiffness = 8.0;
     const cylinder_settings c = cylinder_of(v);
     CHECK((c.radius == 1.0 && c.bottom == -2.0 && c.top == 3.0 && c.rings == 4 && c.tiles_per_ring == 7));
-    CHECK((c.smallest_radius == 0.1 && c.largest_gap == 0.3 && c.largest_step == 0.3));
+    CHECK((c.smallest_radius == 0.1 && c.largest_gap == 0.3 && checked(c).largest_step == 0.3));
     CHECK((c.contact_stiffness_floor == 5.0 && c.platen_stiffness == 6.0 && c.tile_stiffness == 8.0));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <clast/engine/engine.hpp>
+#include <clast/grains/overlapping_shape.hpp>
 
 #include <catch.hpp>
 

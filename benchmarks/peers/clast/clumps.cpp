@@ -8,6 +8,7 @@
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/criteria/none.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/grains/overlapping_shape.hpp>
 #include <clast/replacements/none.hpp>
 
 #include "scene.hpp"

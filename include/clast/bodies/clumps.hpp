@@ -139,6 +139,7 @@ struct clumps {
     /// energy are kept to rounding. The parts stand in the grain's place, in the order of their pebbles, which they
     /// share out among them without rest; grains behind it move up, so contact lists stay sorted by bodies. The first
     /// part keeps the number for life and the losses. Pebbles must have been placed.
+    template <class = void> // else every program would compile it
     void split(std::size_t g, std::span<const clump_part> parts) {
         const body_motion moved = motion[g];
         const clump_rotation turned = turning[g];
@@ -155,6 +156,7 @@ struct clumps {
     /// The balls of a grain become clumps, with their momentum and angular momentum; tables as for split(). The frame
     /// of the shapes is that of the world, from the first pebble of each, at scale 1. Returns the kinetic energy that
     /// is lost (J).
+    template <class = void> // else every program would compile it
     double freeze(std::size_t g, std::span<const clump_part> parts) {
         std::vector<body_motion> moved;
         std::vector<clump_rotation> turned;
@@ -319,6 +321,7 @@ struct clumps {
         return density * grains[static_cast<std::size_t>(mother[p])].density_ratio;
     }
     /// Gives the pebbles of a grain to so many clumps of one scale in its place, whose motion is still to be set.
+    template <class = void> // else every program would compile it
     void divide(std::size_t g, std::span<const clump_part> parts, double scale) {
         note_shapes();
         const std::size_t more = parts.size() - 1, before = grains.size();

@@ -107,6 +107,7 @@ class cluster_pool {
     /// Gives clusters new seats if bonds broke or clusters came since the last time: those of one class of frequencies
     /// in batches of their own, with many bonds first, of equally many those with the same bonds side by side; those
     /// without any behind all batches.
+    template <class = void> // else every program would compile it
     void pack() {
         const std::int64_t left = std::accumulate(intact_.begin(), intact_.end(), std::int64_t{0});
         if (std::exchange(packed_clusters_, size_) == size_ && packed_bonds_ == left) return;

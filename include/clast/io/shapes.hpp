@@ -13,6 +13,7 @@
 
 #include <clast/core/errors.hpp>
 #include <clast/core/number_lines.hpp>
+#include <clast/grains/overlapping_shape.hpp>
 #include <clast/grains/shape.hpp>
 
 namespace clast::shapes {

@@ -219,7 +219,8 @@ class packing {
     /// Throws input_error with the number of the grain (from 1, as its row in a table) where a part is not of the
     /// mixture, a size not above 0, an orientation not of unit length (to 1e-6), or a pebble reaches into one of
     /// another grain by more than a tenth of the smaller radius; and where there are no grains.
-    packing(const mixture& of, std::vector<placed_grain> grains) : grains_(std::move(grains)) {
+    template <std::same_as<mixture> Mixture> // else every program would compile it
+    packing(const Mixture& of, std::vector<placed_grain> grains) : grains_(std::move(grains)) {
         if (grains_.empty())
             throw input_error("packing", "no grains", "one grain or more", "Leave it out for a cloud.");
         for (std::size_t g = 0; g < grains_.size(); ++g) add_pebbles(of, g);
@@ -236,7 +237,7 @@ class packing {
     static input_error wrong(std::size_t g, const std::string& what, const char* right, const char* way_out) {
         return input_error(fmt::format("packing, grain {}", g + 1), what, right, way_out);
     }
-    void add_pebbles(const mixture& of, std::size_t g) {
+    template <class Mixture> void add_pebbles(const Mixture& of, std::size_t g) {
         const placed_grain& one = grains_[g];
         if (one.part >= of.parts().size())
             throw wrong(g, fmt::format("shape number {}", one.part), "a shape of the mixture",
@@ -251,7 +252,7 @@ class packing {
             pebbles_.push_back(
                 {one.centre + rotate(q, one.scale * p.offset), one.scale * p.radius, static_cast<std::int32_t>(g)});
     }
-    void look_for_overlaps() const {
+    template <class = void> void look_for_overlaps() const {
         for (const searches::sphere_pair& pair : searches::cell_grid{}.pairs(pebbles_, 0.0)) {
             const searches::sphere &a = pebbles_[static_cast<std::size_t>(pair.first)],
                                    &b = pebbles_[static_cast<std::size_t>(pair.second)];
@@ -262,7 +263,7 @@ class packing {
                             "Shrink the grains a little, or let the program that packed them settle them.");
         }
     }
-    void measure(const mixture& of) {
+    template <class Mixture> void measure(const Mixture& of) {
         sizes_.smallest_radius = pebbles_.front().radius;
         for (const searches::sphere& p : pebbles_) {
             sizes_.smallest_radius = std::min(sizes_.smallest_radius, p.radius);
