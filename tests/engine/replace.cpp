@@ -107,6 +107,7 @@ TEST_CASE("grains whose pebbles overlap move like others, but not where they may
     const double before = e.kinetic_energy();
     const vec3 p = scenes::momentum(e.grains);
     CHECK(e.grains.body_mass(0) == Approx(e.grains.density * lump.volume));
+    CHECK(e.grains.solid_volume() == Approx(2.0 * lump.volume).epsilon(1e-14));
     e.step(4000);
     CHECK(e.losses().friction > 0.0); // they met
     CHECK(e.elastic_energy() == 0.0);

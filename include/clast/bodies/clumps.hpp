@@ -96,10 +96,16 @@ struct clumps {
     vec3 inverse_inertia(const grain& g) const { ///< 1/(kg m^2), body axes
         return (1.0 / inertia_ratio(g)) * of_shape[static_cast<std::size_t>(g.shape)].inverse_inertia;
     }
-    /// Of all grains (m^3): invariant under replacement.
+    /// Of all grains (m^3): pebble by pebble where they do not overlap, and so invariant under replacement.
     double solid_volume() const {
         double v = 0.0;
-        for (const grain& g : grains) v += volume_of(g);
+        for (std::size_t g = 0; g < grains.size(); ++g) {
+            const index_range own = pebbles_of(g);
+            if (shape_of(grains[g]).overlapping)
+                v += volume_of(grains[g]);
+            else
+                for (std::size_t p = own.begin; p < own.end; ++p) v += sphere_volume(pebbles[p].radius);
+        }
         return v;
     }
 
