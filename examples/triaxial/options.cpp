@@ -100,12 +100,12 @@ void declare(CLI::App& app, raw& r) {
             ->group(group);
     };
     add("--shape", r.shape, "NAME|FILE",
-        "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line;\nseveral with their shares of the mass: "
-        "14B:0.7,4B:0.3",
+        "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line;\nseveral with parts of the mass "
+        "(1 if left out):\n14B:0.7,4B:0.3",
         "4B");
     add("--grading", r.grading, "FILE", "sieve curve: lines 'size finer', in mm and % of the mass", "all grains 20 mm");
     add("--packing", r.packing, "FILE",
-        "where grains start: packing.csv of another run,\nor lines 'x y z d' (m) for "
+        "where grains start: packing.csv of another run\n(repeat its --shape and --scale), or lines 'x y z d' (m) for "
         "spheres",
         "a cloud");
     add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");

@@ -350,6 +350,7 @@ void result_folder::finish(const run_facts& facts) {
     for (const auto& [name, text] : {std::pair{"summary.json", "the numbers above and all inputs"},
                                      {"series.csv", "stress, strain, volume, energies: a row per sample"},
                                      {"events.csv", "a row per broken bond"},
+                                     {"packing.csv", "the grains as prepared, for --packing of other runs"},
                                      {"vtk/pebbles.pvd", "grains for ParaView"},
                                      {"vtk/boundary.pvd", "membrane and platens for ParaView"}})
         if (std::error_code none; fs::exists(folder_ / name, none))

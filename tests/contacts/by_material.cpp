@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <tuple>
 #include <type_traits>
 
 #include <clast/bodies/spheres.hpp>
@@ -133,4 +135,15 @@ TEST_CASE("clumps of two materials and densities: heavier ones are, and friction
     CHECK(e.losses().friction > 0.0);
     CHECK(norm(scenes::momentum(e.grains) - p) < 1e-12 * norm(p));
     CHECK(e.kinetic_energy() + e.elastic_energy() + e.losses().friction == Approx(before).epsilon(1e-3));
+}
+
+TEST_CASE("a material that the law does not know is refused, with the numbers that it does") {
+    std::string text;
+    try {
+        (void)hit(law(), 0, 2);
+    } catch (const input_error& e) {
+        text = e.what();
+    }
+    CHECK(text.find("material of a grain: '2'") == 0);
+    CHECK(text.find("0 to 1") != std::string::npos);
 }

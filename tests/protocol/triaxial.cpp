@@ -11,6 +11,7 @@
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/solid_strips.hpp>
+#include <clast/contacts/by_material.hpp>
 #include <clast/fields/gravity.hpp>
 
 #include <catch.hpp>
@@ -279,6 +280,10 @@ TEST_CASE("a packing of one's own starts at the size of the specimen, without a 
     REQUIRE(again.run(quiet));
     CHECK(again.sim().totals().steps < before); // no way to go in `compact`
     CHECK(again.sim().grains.solid_volume() == packed.solid_volume());
+    triaxial_setup<rigid> large = s; // as if the size of the specimen that it was made for had been forgotten
+    large.diameter = 200_mm, large.height = 200_mm;
+    CHECK_THROWS_WITH(triaxial_test<rigid>(large, protocol::preparation()),
+                      Catch::Contains("packing: 'a porosity of 0.9") && Catch::Contains("0.2 to 0.9"));
     grains[3].centre.x = 1.0;
     s.packing = protocol::packing(s.grain, grains);
     CHECK_THROWS_AS(triaxial_test<rigid>(s, protocol::preparation()), input_error);
@@ -332,4 +337,21 @@ TEST_CASE("a field of the setup acts in the test: grains of the cloud fall freel
         free += norm(test.sim().grains.motion[g].v - expected) < 1e-9 ? 1u : 0u;
     }
     CHECK(free > before.grain_count() / 2);
+}
+
+TEST_CASE("a law that Table 1 knows nothing of has no default, and a setup without it is refused by its member") {
+    struct rocks : rigid {
+        using contact = contacts::by_material<contacts::linear, 2>;
+    };
+    const triaxial_setup<rocks> s{.grain = shapes::tetrahedron_4(0.02),
+                                  .diameter = 66_mm,
+                                  .height = 75_mm,
+                                  .confining = 200_kPa,
+                                  .breakage = {},
+                                  .replacement = {},
+                                  .porosity = 0.62,
+                                  .rings = 4,
+                                  .tiles_per_ring = 8};
+    CHECK_THROWS_WITH(triaxial_test<rocks>(s, protocol::preparation()),
+                      Catch::Contains("materials.membrane") && Catch::Contains("contacts"));
 }

@@ -28,6 +28,7 @@ class by_material : public std::conditional_t<frictional<Base>, detail::friction
   public:
     using history = typename Base::history;
     static constexpr bool reads_materials = true;
+    static constexpr std::size_t materials = N; ///< their numbers are below; an engine refuses others
     static constexpr bool uses_masses = contacts::reads_masses<Base>();
     static constexpr bool constant_stiffness = is_of_constant_stiffness<Base>();
 

@@ -151,7 +151,10 @@ template <class P> class engine : private scene<P> {
         scene_type& s = own();
         check(settings, grains.density);
         if constexpr (scene_type::replaces) rooms::refuse_overlapping(grains);
-        if constexpr (contacts::reads_materials<contact>()) grains.materials.resize(grains.pebble_count(), 0);
+        if constexpr (contacts::reads_materials<contact>()) {
+            grains.materials.resize(grains.pebble_count(), 0);
+            if constexpr (requires { contact::materials; }) check_materials(contact::materials);
+        }
         s.broken.begin(grains, settings);
         s.memory.resize(grains.body_count());
         s.replacing.begin(grains.grain_count());
@@ -164,6 +167,12 @@ template <class P> class engine : private scene<P> {
         const double then = potential_energy();
         estimate(true);
         s.totals.initial_energy += potential_energy() - then; // it is that of half a step ago, and there is a step now
+    }
+    void check_materials(std::size_t count) const {
+        for (const std::size_t m : grains.materials)
+            if (m >= count)
+                throw input_error("material of a grain", fmt::format("{}", m), fmt::format("0 to {}", count - 1),
+                                  "Number materials from 0, or give the contact law more of them.");
     }
     double smallest_radius() const {
         double least = std::numeric_limits<double>::infinity();

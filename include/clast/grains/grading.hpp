@@ -47,10 +47,11 @@ class grading {
                             "sizes that grow and shares that do not fall with them", "Correct one of the two points.");
         }
         if (curve_.front().finer != 0.0 || curve_.back().finer != 1.0)
-            throw wrong(fmt::format("from {:g} % to {:g} %", 100.0 * curve_.front().finer, 100.0 * curve_.back().finer),
-                        "from 0 % at the smallest to 100 % at the largest size",
-                        "Add the size below which there are no grains; fines that are left out are left out of all "
-                        "shares.");
+            throw wrong(
+                fmt::format("from {:g} % to {:g} %", 100.0 * curve_.front().finer, 100.0 * curve_.back().finer),
+                "from 0 % at the smallest to 100 % at the largest size",
+                "Add the size below which there are no grains (0 %), or the one that all are below (100 %); what "
+                "is left out is left out of all shares.");
     }
 
     bool empty() const { return curve_.empty(); }

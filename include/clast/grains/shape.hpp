@@ -236,7 +236,7 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
                     fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / s.diameter),
                     "pebbles that touch or are apart (tolerance 1e-9 of d = 2 R_circumscribed)",
                     fmt::format("Move them apart, or multiply their radii by {:.12g}; grains that never break may have "
-                                "them (overlapping_shape).",
+                                "them (overlapping_shape; in the program triaxial: --replacement none).",
                                 distance / touching));
             if (gap < 1e-3 * smallest) s.bonds.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)});
         }

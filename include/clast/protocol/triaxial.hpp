@@ -289,6 +289,10 @@ template <class P> class triaxial_test {
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
         m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, 1.0 / r, 0.0});
+        if (!(m.contact_stiffness_floor > 0.0))
+            throw input_error("materials.membrane", "no normal stiffness",
+                              "a law with a stiffness under a small overlap",
+                              "A law other than contacts::linear has no default: give materials its three contacts.");
         if constexpr (std::same_as<typename P::contact, contacts::linear>) {
             m.platen_stiffness = s.materials.platen.normal_stiffness;
             m.wall_stiffness = s.materials.membrane.normal_stiffness;
@@ -329,6 +333,10 @@ template <class P> class triaxial_test {
     static boundary_type add_packing(const triaxial_setup<P>& s, typename P::body& sp) {
         const std::vector<searches::sphere>& pebbles = s.packing.pebbles();
         protocol::add(sp, s.grain, s.packing.grains());
+        const double porosity = 1.0 - sp.solid_volume() / vessel_of(s, 1.0).volume();
+        if (!(porosity >= 0.2 && porosity <= 0.9))
+            throw input_error("packing", fmt::format("a porosity of {:.3g} at the size of the specimen", porosity),
+                              "0.2 to 0.9", "Give the specimen the diameter and height that the packing was made for.");
         for (double larger = 1.0;; larger *= 1.01) {
             boundary_type vessel = vessel_of(s, larger);
             const std::size_t out = protocol::first_outside(protocol::inside(vessel), pebbles);
@@ -337,8 +345,10 @@ template <class P> class triaxial_test {
             const searches::sphere& p = pebbles[out];
             throw input_error(fmt::format("packing, grain {}", p.id + 1),
                               fmt::format("a pebble at {:.4g} {:.4g} {:.4g} m", p.centre.x, p.centre.y, p.centre.z),
-                              "inside four times the specimen",
-                              "Compare with diameter and height; the middle of the specimen is at 0 0 0.");
+                              fmt::format("inside four times the specimen, which has a radius of {:.4g} m and a height "
+                                          "of {:.4g} m around 0 0 0",
+                                          0.5 * s.diameter.si(), s.height.si()),
+                              "Leave this grain out, or make the specimen larger.");
         }
     }
     static engine<P> make_engine(const triaxial_setup<P>& s) {
