@@ -26,7 +26,7 @@ namespace {
 using rigid = scenes::unbreakable<boundaries::tiles>;
 using setup_type = triaxial_setup<rigid>;
 
-setup_type good() {
+template <class P = rigid> triaxial_setup<P> good() {
     return {.grain = shapes::tetrahedron_4(0.02),
             .diameter = 66_mm,
             .height = 75_mm,
@@ -96,15 +96,8 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
 
 TEST_CASE("a box counts its porosity in its own section, and has no use for rings and tiles") {
     using in_box = scenes::unbreakable<boundaries::box>;
-    const triaxial_setup<in_box> s{.grain = shapes::tetrahedron_4(0.02),
-                                   .diameter = 66_mm,
-                                   .height = 75_mm,
-                                   .confining = 200_kPa,
-                                   .breakage = {},
-                                   .replacement = {},
-                                   .porosity = 0.62,
-                                   .rings = 1000,
-                                   .tiles_per_ring = 1};
+    triaxial_setup<in_box> s = good<in_box>();
+    s.rings = 1000, s.tiles_per_ring = 1, s.inertial_number = 1e-4;
     const triaxial_test<in_box> test(s, protocol::preparation(66_mm, 75_mm));
     const double volume = 0.066 * 0.066 * 0.075;
     CHECK(test.sim().grains.solid_volume() / volume ==
@@ -116,15 +109,8 @@ TEST_CASE("a test of spheres takes a single sphere as its grain, and says so") {
     struct of_spheres : rigid {
         using body = bodies::spheres;
     };
-    triaxial_setup<of_spheres> s{.grain = shapes::tetrahedron_4(0.02),
-                                 .diameter = 66_mm,
-                                 .height = 75_mm,
-                                 .confining = 200_kPa,
-                                 .breakage = {},
-                                 .replacement = {},
-                                 .porosity = 0.62,
-                                 .rings = 3,
-                                 .tiles_per_ring = 8};
+    triaxial_setup<of_spheres> s = good<of_spheres>();
+    s.rings = 3, s.inertial_number = 1e-4;
     std::string text;
     try {
         const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
@@ -315,18 +301,8 @@ TEST_CASE("a field of the setup acts in the test: grains of the cloud fall freel
     struct heavy : rigid {
         using field = fields::gravity;
     };
-    triaxial_setup<heavy> s{.grain = shapes::tetrahedron_4(0.02),
-                            .diameter = 66_mm,
-                            .height = 75_mm,
-                            .confining = 200_kPa,
-                            .breakage = {},
-                            .replacement = {},
-                            .porosity = 0.62,
-                            .rings = 4,
-                            .tiles_per_ring = 8,
-                            .inertial_number = 5e-3,
-                            .damping = 0.0,
-                            .field = {{0.0, 0.0, -100.0}}};
+    triaxial_setup<heavy> s = good<heavy>();
+    s.damping = 0.0, s.field.acceleration = {0.0, 0.0, -100.0};
     triaxial_test<heavy> test(s, {{.name = "fall", .end = until::steps(100)}});
     const bodies::clumps before = test.sim().grains;
     observer quiet;
@@ -343,15 +319,7 @@ TEST_CASE("a law that Table 1 knows nothing of has no default, and a setup witho
     struct rocks : rigid {
         using contact = contacts::by_material<contacts::linear, 2>;
     };
-    const triaxial_setup<rocks> s{.grain = shapes::tetrahedron_4(0.02),
-                                  .diameter = 66_mm,
-                                  .height = 75_mm,
-                                  .confining = 200_kPa,
-                                  .breakage = {},
-                                  .replacement = {},
-                                  .porosity = 0.62,
-                                  .rings = 4,
-                                  .tiles_per_ring = 8};
+    const triaxial_setup<rocks> s = good<rocks>();
     CHECK_THROWS_WITH(triaxial_test<rocks>(s, protocol::preparation()),
                       Catch::Contains("materials.membrane") && Catch::Contains("contacts"));
 }

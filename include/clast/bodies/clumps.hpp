@@ -69,7 +69,6 @@ struct clumps {
     /// not change after that.
     struct constants {
         vec3 inverse_inertia; ///< 1/(kg m^2), body axes
-        double inverse_mass;  ///< 1/kg
         double reach;         ///< radius of the circumscribed sphere (m)
         double mass;          ///< kg
     };
@@ -351,7 +350,7 @@ struct clumps {
         for (std::size_t k = of_shape.size(); k < shapes.size(); ++k) {
             const double m = density * shapes[k].volume;
             const vec3 i = density * shapes[k].inertia_per_density;
-            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, 1.0 / m, shapes[k].circumscribed_radius, m});
+            of_shape.push_back({{1.0 / i.x, 1.0 / i.y, 1.0 / i.z}, shapes[k].circumscribed_radius, m});
         }
     }
     /// Where the pebbles of a clump are: x = X + (scale R) o, by columns of scale R.

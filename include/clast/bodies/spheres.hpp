@@ -38,12 +38,8 @@ struct spheres {
 
     /// Adds a sphere at rest and returns its number.
     std::int32_t add(const vec3& centre, double radius) {
-        pebbles.push_back({centre,
-                           radius,
-                           {},
-                           1.0 / (density * sphere_volume(radius)),
-                           {},
-                           1.0 / (density * sphere_inertia_per_density(radius))});
+        pebbles.push_back({centre, radius, {}, 0.0, {}, 0.0});
+        weigh(pebbles.back(), density);
         losses.push_back({});
         return static_cast<std::int32_t>(pebbles.size() - 1);
     }
@@ -63,9 +59,7 @@ struct spheres {
     void set_material(std::size_t b, std::uint8_t material, double density_ratio = 1.0) {
         materials.resize(pebbles.size(), 0);
         materials[b] = material;
-        const double rho = density_ratio * density;
-        pebbles[b].inverse_mass = 1.0 / (rho * sphere_volume(pebbles[b].radius));
-        pebbles[b].inverse_inertia = 1.0 / (rho * sphere_inertia_per_density(pebbles[b].radius));
+        weigh(pebbles[b], density_ratio * density);
     }
     std::size_t pebble_count() const { return pebbles.size(); }
     std::size_t grain_count() const { return pebbles.size(); }
@@ -131,6 +125,11 @@ struct spheres {
     template <class A> void archive(A& a) { a(density, pebbles, losses, materials); }
 
   private:
+    /// Gives a sphere the mass and the inertia of a density (kg/m^3).
+    static void weigh(pebble_motion& p, double rho) {
+        p.inverse_mass = 1.0 / (rho * sphere_volume(p.radius));
+        p.inverse_inertia = 1.0 / (rho * sphere_inertia_per_density(p.radius));
+    }
     /// In whole records of four numbers where the scheme takes them, else in vectors.
     template <std::size_t N, std::size_t Loop, class Rule>
     [[gnu::always_inline]] margin_use move(register_width<N, Loop>, std::span<const moving_body> bodies,

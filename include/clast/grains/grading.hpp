@@ -18,8 +18,6 @@ namespace clast {
 struct sieve {
     double size = 0.0;  ///< (m): diameter of the circumscribed sphere of a grain
     double finer = 0.0; ///< share of the mass in smaller grains, 0 to 1
-
-    template <class A> void archive(A& a) { a(size, finer); }
 };
 
 /// A grading by mass: share finer against size, straight between its points over the logarithm of size, as it is drawn.
@@ -110,8 +108,6 @@ class grading {
         }
         return all;
     }
-
-    template <class A> void archive(A& a) { a(curve_); }
 
   private:
     std::vector<sieve> curve_;

@@ -77,16 +77,17 @@ inline protocol::packing read_packing(const std::string& path, const mixture& of
     const std::string text = detail::read_whole(path);
     std::vector<placed_grain> grains;
     if (text.starts_with(detail::csv_header<packing_row>())) {
-        for (const packing_row& r : read_table<packing_row>(path)) {
+        std::string names;
+        for (const mixture_part& p : of.parts()) names += (names.empty() ? "" : ", ") + p.form.name;
+        detail::scan_table<packing_row>(path, text, [&](const packing_row& r) {
             std::size_t part = 0;
-            std::string names;
-            for (const mixture_part& p : of.parts()) names += (names.empty() ? "" : ", ") + p.form.name;
             while (part < of.parts().size() && of.parts()[part].form.name != r.shape) ++part;
             if (part == of.parts().size())
                 throw input_error(fmt::format("packing file {}, grain {}", path, grains.size() + 1),
                                   fmt::format("shape '{}'", r.shape), names, "Add it to the shapes of the test.");
             grains.push_back({{part, r.d / of.parts()[part].form.diameter}, r.x, r.q});
-        }
+            return true;
+        });
     } else {
         grains = detail::read_bare_packing(path, text, of);
     }

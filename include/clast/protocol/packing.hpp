@@ -301,10 +301,9 @@ std::size_t first_outside(const Room& room, const std::vector<searches::sphere>&
 /// Adds a cloud of `count` grains of one shape to a specimen.
 template <bodies::specimen Body, room_for_a_cloud Room>
 void add_cloud(Body& s, const shape& grain, std::size_t count, const Room& room, std::uint64_t seed) {
-    const mixture of(grain);
     const auto kind = s.kind_of(grain);
-    for (const placed_grain& g : cloud_of(s, of, std::vector<mixture_grain>(count), room, seed))
-        s.add(kind, g.centre, g.q);
+    for (const auto& p : detail::cloud_of(s, std::vector<double>(count, grain.circumscribed_radius), room, seed))
+        s.add(kind, p.centre, p.q);
 }
 /// The same of a shape that the specimen has already, by its number, in a cylinder.
 template <std::same_as<bodies::clumps> Body> // else every program would make it
