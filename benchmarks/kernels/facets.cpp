@@ -18,6 +18,7 @@
 #include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/boundaries/tiles.hpp>
 
 namespace {
@@ -78,16 +79,15 @@ template <class Wall> void touch_and_push(benchmark::State& state) {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     std::vector<vec3> pebbles(static_cast<std::size_t>(state.range(0)));
     for (vec3& x : pebbles) {
-        // at the plane of the facet in front, with a gap or an overlap of up to 4 % of the radius
+        // at the surface in front, with a gap or an overlap of up to 4 % of the radius
         const double angle = std::numbers::pi * u(random), z = 0.49 * height * u(random);
-        const auto around = static_cast<double>(wall.tiles_per_ring()), rings = static_cast<double>(wall.ring_count());
-        const double turns =
-            std::round((angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle) * 0.5 * around / std::numbers::pi);
-        const double ring = std::floor((z / height + 0.5) * rings);
-        const int facet = boundaries::first_lateral_facet + static_cast<int>(ring * around + std::fmod(turns, around));
-        const double off = angle - 2.0 * std::numbers::pi * turns / around;
-        const double rho = (wall.apothem(facet) - pebble * (1.0 + 0.04 * u(random))) / std::cos(off);
-        x = {rho * std::cos(angle), rho * std::sin(angle), z};
+        const double reach = pebble * (1.0 + 0.04 * u(random));
+        double inside = 0.5 * radius, beyond = 1.3 * radius;
+        for (int k = 0; k < 30; ++k) {
+            const double rho = 0.5 * (inside + beyond);
+            x = {rho * std::cos(angle), rho * std::sin(angle), z};
+            (wall.touch(x, reach).size > 0 ? beyond : inside) = rho;
+        }
     }
     push(state, wall, pebbles);
 }
@@ -109,6 +109,7 @@ template <boundaries::surface Surface> void touch_surface(benchmark::State& stat
     push(state, surface, pebbles);
 }
 BENCHMARK(touch_and_push<boundaries::tiles>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
+BENCHMARK(touch_and_push<boundaries::stepped_tiles>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
 BENCHMARK(touch_and_push<boundaries::ring_walls>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
 BENCHMARK(touch_and_push<boundaries::solid_strips>)->ArgName("pebbles")->Arg(1'000)->Arg(10'000);
 

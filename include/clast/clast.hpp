@@ -9,6 +9,7 @@
 #include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/constraints/held.hpp>
 #include <clast/constraints/none.hpp>

@@ -6,7 +6,7 @@
 
 #include <catch.hpp>
 
-#include <clast/boundaries/tiles.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 
 namespace {
 
@@ -28,7 +28,7 @@ cylinder_settings settings() {
 double largest_step(double largest_gap) {
     cylinder_settings s = settings();
     s.largest_gap = largest_gap;
-    tiles wall(s);
+    stepped_tiles wall(s);
     drives d;
     d.lateral = {drive::mode::servo, 1e5, 0.02, 0.5};
     std::vector<facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
@@ -48,9 +48,9 @@ double largest_step(double largest_gap) {
 
 TEST_CASE("the largest step of a tile column is two smallest radii, or what is asked for") {
     CHECK(settings().largest_gap == 0.0);
-    CHECK(tiles(settings()).settings().largest_gap == 0.004);
+    CHECK(stepped_tiles(settings()).settings().largest_gap == 0.004);
     CHECK(settings().largest_step == 0.0);
-    CHECK(tiles(settings()).settings().largest_step == 0.004); // around a ring the same
+    CHECK(stepped_tiles(settings()).settings().largest_step == 0.004); // around a ring the same
     const double small = largest_step(0.0), wide = largest_step(0.008);
     CHECK(small > 0.0039);
     CHECK(small < 0.0042);
@@ -60,7 +60,7 @@ TEST_CASE("the largest step of a tile column is two smallest radii, or what is a
 
 TEST_CASE("servos of tiles that share a pebble move together") {
     cylinder_settings s = settings();
-    tiles wall(s);
+    stepped_tiles wall(s);
     drives d;
     d.lateral = {drive::mode::servo, 1e5, 1.0, 0.5};
     std::vector<facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
@@ -79,7 +79,7 @@ TEST_CASE("servos of tiles that share a pebble move together") {
 }
 
 TEST_CASE("a wall around the axis refuses a drive for y walls alone") {
-    tiles wall(settings());
+    stepped_tiles wall(settings());
     drives d;
     d.lateral_y = drive{drive::mode::hold, 0.0, 0.0, 0.5};
     const std::vector<facet_load> none(static_cast<std::size_t>(wall.facet_count()));

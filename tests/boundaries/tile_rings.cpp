@@ -6,7 +6,7 @@
 
 #include <catch.hpp>
 
-#include <clast/boundaries/tiles.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 
 namespace {
 
@@ -37,7 +37,7 @@ TEST_CASE("a single pebble may fill the height or the width, and be squeezed to 
     s.smallest_radius = 0.05;
     s.largest_gap = s.largest_step = 0.01;
     const auto squeezed = [&](double platens, double lateral) {
-        tiles wall(s);
+        stepped_tiles wall(s);
         drives d;
         d.platens = {drive::mode::velocity, platens, 0.0, 0.5};
         d.lateral = {drive::mode::velocity, lateral, 0.0, 0.5};
@@ -56,7 +56,7 @@ TEST_CASE("a single pebble may fill the height or the width, and be squeezed to 
 
 TEST_CASE("rings share the height of the specimen equally, also when it has become shorter") {
     constexpr double r = 4e-3;
-    tiles wall(paper());
+    stepped_tiles wall(paper());
     drives d;
     d.platens = {drive::mode::velocity, 0.1, 0.0, 0.5};
     wall.control(std::vector<facet_load>(static_cast<std::size_t>(wall.facet_count())), d, 1e-3);

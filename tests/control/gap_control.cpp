@@ -129,3 +129,48 @@ TEST_CASE("a closed chain also guards the pair of its last and first wall", "[co
     CHECK(v[0] == 0.0);
     CHECK(v[3] == 0.0);
 }
+
+TEST_CASE("a held pair moves on together, at the speed that the sum of its loads asks for", "[control]") {
+    const chain two{0, 1, 2, false, 0, 0.004};
+    const std::vector<double> apothem{0.158, 0.150}, stiffness{3e6, 1e6};
+    const std::vector<std::uint8_t> latch{1};
+    std::vector<double> holding;
+    std::vector<double> v{-1.0, 3.0}; // the outer one out, the inner one in
+    CHECK(hold_gaps({two}, apothem, v, stiffness, latch, holding) == 1);
+    CHECK(v[0] == Approx(0.0).margin(1e-12)); // (3 (-1) + 1 (3)) / 4
+    CHECK(v[1] == Approx(0.0).margin(1e-12));
+    v = {1.0, 5.0};
+    CHECK(hold_gaps({two}, apothem, v, stiffness, latch, holding) == 1);
+    CHECK(v[0] == Approx(2.0).epsilon(1e-12));
+    CHECK(v[1] == Approx(2.0).epsilon(1e-12));
+    v = {3.0, -1.0}; // closing
+    CHECK(hold_gaps({two}, apothem, v, stiffness, latch, holding) == 0);
+    CHECK(v == std::vector<double>{3.0, -1.0});
+    v = {-1.0, 3.0}; // not latched
+    CHECK(hold_gaps({two}, apothem, v, stiffness, {0}, holding) == 0);
+    CHECK(v == std::vector<double>{-1.0, 3.0});
+}
+
+TEST_CASE("walls held in a row and a ring keep the sum of stiffness times velocity, and none opens", "[control]") {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    for (int run = 0; run < 200; ++run) {
+        const std::vector<chain> chains{
+            {0, 4, 4, false, 0, 0.004}, {0, 1, 4, true, 4, 0.004}, {4, 1, 4, true, 8, 0.004}};
+        std::vector<double> apothem(16), stiffness(16), v(16), holding;
+        for (std::size_t j = 0; j < 16; ++j)
+            apothem[j] = 0.15 + 0.01 * u(random), stiffness[j] = 2e6 * (1.5 + u(random)), v[j] = u(random);
+        std::vector<std::uint8_t> latch(12);
+        for (auto& l : latch) l = u(random) > 0.0;
+        const std::vector<double> before = v;
+        hold_gaps(chains, apothem, v, stiffness, latch, holding);
+        double sum = 0.0, size = 0.0;
+        for (std::size_t j = 0; j < 16; ++j) sum += stiffness[j] * (v[j] - before[j]), size += stiffness[j];
+        CHECK(std::abs(sum) < 1e-12 * size);
+        for (const chain& c : chains)
+            for (int j = 0; j < c.pairs(); ++j) {
+                const auto [a, b, l] = detail::pair_of(c, j);
+                if (latch[l]) CHECK(detail::opening_rate(apothem[a], apothem[b], v[a], v[b]) < 0.02);
+            }
+    }
+}

@@ -84,7 +84,7 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
     const double section = 8.0 * std::tan(std::numbers::pi / 8.0) * 0.033 * 0.033;
     CHECK(s.solid_volume() / (section * 0.075) == Approx(0.38).margin(0.5 * s.shapes[0].volume / (section * 0.075)));
     CHECK(test.sim().boundary.height() == Approx(1.8 * 0.075));
-    CHECK(test.sim().boundary.apothem(boundaries::first_lateral_facet) == Approx(1.8 * 0.033));
+    CHECK(test.sim().boundary.radius() == Approx(1.8 * 0.033));
     for (std::size_t g = 0; g < s.grain_count(); ++g) CHECK(dot(s.motion[g].v, s.motion[g].x) <= 0.0); // inwards
     CHECK(test.sim().elastic_energy() == 0.0);
     // stiffness in series, the smaller friction

@@ -29,6 +29,8 @@ struct cylinder_settings {
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
     double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
     control::gap_rule gaps{};
+    double bending = 3.0; ///< of a sheet: its stiffness against kinks (node_rows.hpp), in sigma_3 times the spacing of
+                          ///< its rows, >= 0
 };
 
 /// The same with its defaults filled in. Throws input_error, by the name of the member, where one makes no sense.
@@ -49,6 +51,8 @@ inline cylinder_settings checked(cylinder_settings s) {
            "Take the stiffness of one pebble-tile contact.");
     demand(s.gaps.closing > 0.0 && s.gaps.closing < 1.0, "gaps.closing", s.gaps.closing, "in (0, 1)", "");
     demand(s.gaps.release > 0.0 && s.gaps.release <= 1.0, "gaps.release", s.gaps.release, "in (0, 1]", "");
+    demand(s.bending >= 0.0 && std::isfinite(s.bending), "bending", s.bending, ">= 0",
+           "0: each node has its own load.");
     if (s.largest_gap == 0.0) s.largest_gap = 2.0 * s.smallest_radius;
     demand(s.largest_gap > 0.0, "largest_gap", s.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
     if (s.largest_step == 0.0) s.largest_step = s.largest_gap;

@@ -140,40 +140,29 @@ inline nearest_point project(std::span<const half_space> all, double tolerance) 
 
 } // namespace detail
 
-/// Contacts of a sphere with a solid made of half_slabs (at most max_slabs): adds to `out` those facets that push,
-/// their normals where the sphere comes free, and their shares of the shortest way out (depth). Exact for the deepest
-/// slab alone; otherwise Newton's method on the touching conditions, which converges by a factor of about depth / r or
-/// faster. Precision 1e-13 r while depth < r / 2; deeper than that the caller should stop.
-inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, touches& out) {
-    const double tolerance = 1e-13 * r;
-    std::size_t deepest = slabs.size();
-    separation first{r, {}};
-    for (std::size_t j = 0; j < slabs.size(); ++j) {
-        const separation s = separate(slabs[j], x);
-        if (s.distance < first.distance) first = s, deepest = j;
-    }
-    if (deepest == slabs.size()) return;
-    const auto report = [&](std::size_t j, const vec3& n, double depth) {
-        const half_slab& h = slabs[j];
-        out.add({h.facet, n, depth, -(n.x * h.nx + n.y * h.ny)});
-    };
-    // No way out is shorter than the deepest overlap, so if it frees the sphere from all slabs it is the shortest.
-    const double depth = r - first.distance;
-    vec3 u = depth * first.normal;
-    bool alone = true;
-    for (std::size_t j = 0; j < slabs.size() && alone; ++j)
-        alone = j == deepest || separate(slabs[j], x + u).distance >= r - tolerance;
-    if (alone) return report(deepest, first.normal, depth);
+namespace detail {
 
-    std::array<detail::half_space, max_slabs> planes;
-    const auto tangent = std::span(planes).first(slabs.size());
-    detail::nearest_point p;
+/// The shortest way out of a solid made of at most Most elements, each with a `separate(element, x)`: calls
+/// report(j, normal, depth, u) for every element that pushes, u being the whole way. `u`: a way out of the deepest of
+/// them alone, which is left if it will do. Newton's method on the touching conditions.
+template <std::size_t Most, class E, class Report>
+void way_out(std::span<const E> elements, const vec3& x, double r, std::size_t deepest, const separation& first, vec3 u,
+             double tolerance, Report&& report) {
+    // No way out is shorter than the deepest overlap, so if it frees the sphere from all it is the shortest.
+    bool alone = true;
+    for (std::size_t j = 0; j < elements.size() && alone; ++j)
+        alone = j == deepest || separate(elements[j], x + u).distance >= r - tolerance;
+    if (alone) return report(deepest, first.normal, r - first.distance, u);
+
+    std::array<half_space, Most> planes;
+    const auto tangent = std::span(planes).first(elements.size());
+    nearest_point p;
     for (int iteration = 0; iteration < 40; ++iteration) {
-        for (std::size_t j = 0; j < slabs.size(); ++j) {
-            const separation s = separate(slabs[j], x + u);
+        for (std::size_t j = 0; j < elements.size(); ++j) {
+            const separation s = separate(elements[j], x + u);
             tangent[j] = {s.normal, r - s.distance + dot(s.normal, u)};
         }
-        p = detail::project(tangent, 0.1 * tolerance);
+        p = project(tangent, 0.1 * tolerance);
         const double change = norm2(p.u - u);
         u = p.u;
         if (change <= tolerance * tolerance) break;
@@ -181,8 +170,29 @@ inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, 
     for (int i = 0; i < p.size; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const auto j = static_cast<std::size_t>(p.by[k]);
-        if (p.lambda[k] > 0.0) report(j, planes[j].n, p.lambda[k]);
+        if (p.lambda[k] > 0.0) report(j, planes[j].n, p.lambda[k], u);
     }
+}
+
+} // namespace detail
+
+/// Contacts of a sphere with a solid made of half_slabs (at most max_slabs): adds to `out` those facets that push,
+/// their normals where the sphere comes free, and their shares of the shortest way out (depth). Exact for the deepest
+/// slab alone; otherwise Newton's method on the touching conditions, which converges by a factor of about depth / r or
+/// faster. Precision 1e-13 r while depth < r / 2; deeper than that the caller should stop.
+inline void push_out(std::span<const half_slab> slabs, const vec3& x, double r, touches& out) {
+    std::size_t deepest = slabs.size();
+    separation first{r, {}};
+    for (std::size_t j = 0; j < slabs.size(); ++j) {
+        const separation s = separate(slabs[j], x);
+        if (s.distance < first.distance) first = s, deepest = j;
+    }
+    if (deepest == slabs.size()) return;
+    detail::way_out<max_slabs>(slabs, x, r, deepest, first, (r - first.distance) * first.normal, 1e-13 * r,
+                               [&](std::size_t j, const vec3& n, double depth, const vec3&) {
+                                   const half_slab& h = slabs[j];
+                                   out.add({h.facet, n, depth, -(n.x * h.nx + n.y * h.ny)});
+                               });
 }
 
 } // namespace clast::boundaries

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <clast/boundaries/faceted_cylinder.hpp>
+#include <clast/boundaries/node_rows.hpp>
 
 namespace clast::boundaries {
 
-/// Lateral wall of rings that move independently, each as one, with two platens. Step limit: 2 smallest radii.
-using ring_walls = faceted_cylinder<moving_unit::ring>;
+/// Lateral wall of rings that move independently, each as one, with two platens: cones between the rings' middles.
+using ring_walls = faceted_cylinder<moving_unit::ring, node_rows<>>;
 
 } // namespace clast::boundaries

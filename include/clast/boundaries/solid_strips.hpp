@@ -4,10 +4,11 @@
 #pragma once
 
 #include <clast/boundaries/faceted_cylinder.hpp>
+#include <clast/boundaries/tile_rings.hpp>
 
 namespace clast::boundaries {
 
 /// Lateral wall of strips that move as one, with two platens. `rings` is not used; no gap can open.
-using solid_strips = faceted_cylinder<moving_unit::wall>;
+using solid_strips = faceted_cylinder<moving_unit::wall, tile_rings<>>;
 
 } // namespace clast::boundaries

@@ -149,6 +149,13 @@ template <class = void> class tile_rings {
     double section() const { return volume_ / height(); } ///< mean cross-section (m^2)
     double bottom() const { return platens_.bottom; }     ///< height of the bottom platen (m)
     double top() const { return platens_.top; }           ///< height of the top platen (m)
+    /// Area of the specimen at a height between the platens (m^2).
+    double section_at(double z) const {
+        const int k = ring_at(z);
+        double sum = 0.0;
+        for (int i = 0; i < around_; ++i) sum += 0.5 * visible_[tile(k, i)].width() * apothem_[tile(k, i)];
+        return sum;
+    }
     /// Largest facet speed (m/s).
     double fastest() const {
         return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), lateral_speed_});
@@ -186,6 +193,14 @@ template <class = void> class tile_rings {
     }
 
   protected:
+    /// Tiles that share a pebble pass its whole load to each other over a fraction of a micrometre.
+    static constexpr bool solved_together = true;
+    /// Largest steps (m) between neighbours up a column and around a ring.
+    double largest_gap() const { return set_.largest_gap; }
+    double largest_step() const { return set_.largest_step; }
+    /// Speed of what moves for one of the wall's faces (m/s).
+    static constexpr double speed_of_faces(double v) { return v; }
+
     /// A cylinder at rest of so many rings, whatever the settings say of them. Throws run_error where the height or the
     /// radius leaves no room for the smallest pebble.
     tile_rings(int rings, const cylinder_settings& of_checked_sizes);
@@ -276,10 +291,10 @@ tile_rings<X>::tile_rings(int rings, const cylinder_settings& of_checked_sizes)
     half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
     dir_ = directions(around_);
     platens_ = {set_.bottom, set_.top, {}};
-    const std::size_t tiles = index(rings_) * index(around_);
-    apothem_.assign(tiles, set_.radius);
-    velocity_.assign(tiles, 0.0);
-    visible_.resize(tiles);
+    const std::size_t all = index(rings_) * index(around_);
+    apothem_.assign(all, set_.radius);
+    velocity_.assign(all, 0.0);
+    visible_.resize(all);
     ring_smallest_.resize(index(rings_));
     edge_.resize(index(rings_) + 1);
     refresh();

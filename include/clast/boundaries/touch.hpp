@@ -18,20 +18,25 @@ inline constexpr std::int32_t first_lateral_facet = 2; ///< then ring * tiles_pe
 /// One contact of a pebble with a facet. The force on the pebble is k * depth * normal.
 struct touch {
     std::int32_t facet;
-    vec3 normal;  ///< unit vector into the specimen: direction of the force on the pebble
-    double depth; ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
-    double along; ///< cosine between `normal` and the facet's own inward normal, in [0, 1]; below 1 at an edge
+    vec3 normal;       ///< unit vector into the specimen: direction of the force on the pebble
+    double depth;      ///< overlap, or the facet's share of the way out where several facets are touched (m), >= 0
+    double along;      ///< cosine between `normal` and the facet's own inward direction, in [0, 1]; below 1 at an edge
+    double part = 1.0; ///< of a face that several facets span, the nodes of a sheet: this facet's part in a move of the
+                       ///< point of contact; all parts of a face stand in a row, with its normal, and add up to 1
 
     constexpr bool at_platen() const { return facet < first_lateral_facet; }
     /// Number of the platen, of a touch at one: 0 bottom, 1 top.
     constexpr std::size_t platen() const { return facet == top_platen ? 1 : 0; }
 };
 
-/// All contacts of one pebble with a boundary: at most three lateral facets (three planes fix a way out) and two
-/// platens.
+/// Most contacts of one pebble with a boundary: three lateral faces (three planes fix a way out) of four facets each,
+/// and two platens.
+inline constexpr std::size_t most_touches = 14;
+
+/// All contacts of one pebble with a boundary.
 struct touches {
     int size = 0;
-    std::array<touch, 5> at;
+    std::array<touch, most_touches> at;
 
     constexpr touches() = default;
     /// Copies those that are there. Most pebbles near a wall touch one facet or none: a loop from 0 would become a call
@@ -66,36 +71,57 @@ constexpr double elastic_energy(const touches& t, double k_platen, double k_late
     return energy;
 }
 
-/// How the shares (touch::depth) of the lateral facets that one pebble touches answer to a move of one of them along
-/// its normal: the inverse Gram matrix of the normals, in the order of the lateral touches. 1 for a facet alone; large
-/// for nearly parallel facets, because a small move of one against the other shifts the whole load between them.
-using sharing_matrix = std::array<std::array<double, 3>, 3>;
-inline sharing_matrix sharing(const touches& t) {
-    std::array<vec3, 3> n;
-    std::size_t count = 0;
+/// Whether all touches are parts of one face.
+constexpr bool is_one_face(const touches& t) {
+    if (t.at[0].part == 1.0) return false;
     for (const touch& one : t)
-        if (one.facet >= first_lateral_facet && count < 3) n[count++] = one.normal;
-    sharing_matrix s{};
-    if (count == 1) {
-        s[0][0] = 1.0;
-    } else if (count == 2) {
-        const double c = dot(n[0], n[1]), d = 1.0 / (1.0 - c * c);
-        s[0][0] = s[1][1] = d;
-        s[0][1] = s[1][0] = -c * d;
-    } else if (count == 3) {
-        const std::array<vec3, 3> dual{cross(n[1], n[2]), cross(n[2], n[0]), cross(n[0], n[1])};
-        const double volume = dot(n[0], dual[0]);
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) s[i][j] = dot(dual[i], dual[j]) / (volume * volume);
-    }
-    return s;
+        if (one.at_platen() || !(one.normal == t.at[0].normal)) return false;
+    return true;
 }
+
+/// How the shares (touch::depth) of the lateral faces that one pebble touches answer to a move of one of them along
+/// its normal: the inverse Gram matrix of the normals, 1 for a face alone, large for nearly parallel faces, because a
+/// small move of one against the other shifts the whole load between them.
+class sharing {
+  public:
+    explicit sharing(const touches& t) {
+        std::array<vec3, 3> n;
+        std::size_t faces = 0, lateral = 0;
+        for (const touch& one : t) {
+            if (one.at_platen()) continue;
+            if (faces == 0 || !(n[faces - 1] == one.normal)) {
+                if (faces == n.size()) break;
+                n[faces++] = one.normal;
+            }
+            face_[lateral++] = static_cast<std::uint8_t>(faces - 1);
+        }
+        if (faces == 1) {
+            of_[0][0] = 1.0;
+        } else if (faces == 2) {
+            const double c = dot(n[0], n[1]), d = 1.0 / (1.0 - c * c);
+            of_[0][0] = of_[1][1] = d;
+            of_[0][1] = of_[1][0] = -c * d;
+        } else if (faces == 3) {
+            const std::array<vec3, 3> dual{cross(n[1], n[2]), cross(n[2], n[0]), cross(n[0], n[1])};
+            const double volume = dot(n[0], dual[0]);
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j) of_[i][j] = dot(dual[i], dual[j]) / (volume * volume);
+        }
+    }
+    /// Between the faces of the a-th and b-th lateral touch.
+    double operator()(std::size_t a, std::size_t b) const { return of_[face_[a]][face_[b]]; }
+
+  private:
+    std::array<std::array<double, 3>, 3> of_{};
+    std::array<std::uint8_t, most_touches> face_{};
+};
 
 /// Two facets that share a pebble: moving one changes the force on the other.
 struct coupling {
     std::int32_t a;
     std::int32_t b;
-    double stiffness; ///< d force on a / d inward displacement of b (N/m), negative
+    double stiffness; ///< d force on a / d inward displacement of b (N/m): negative where a pebble lies between two
+                      ///< faces, positive where a and b span one
 };
 
 /// What the grains do to one facet in one step.

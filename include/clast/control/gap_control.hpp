@@ -3,6 +3,7 @@
 // large that a particle slips through. Knows apothems and velocities, no grain and no tile.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -128,6 +129,33 @@ inline int control_gaps(const std::vector<chain>& chains, const gap_rule& rule, 
             }
     }
     return longest;
+}
+
+/// Holds latched pairs from opening further by a force between their walls, equal and opposite, which leaves the sum of
+/// their loads what the servos want: the velocities (inward, m/s) nearest to those given, weighed by the walls'
+/// stiffness (N/m, > 0), at which no latched pair opens. Projected Gauss-Seidel; `holding`: work space. Returns how
+/// many pairs are held.
+inline int hold_gaps(const std::vector<chain>& chains, const std::vector<double>& apothem,
+                     std::vector<double>& velocity, const std::vector<double>& stiffness,
+                     const std::vector<std::uint8_t>& latch, std::vector<double>& holding) {
+    holding.assign(latch.size(), 0.0);
+    for (int sweep = 0; sweep < 100; ++sweep) {
+        double moved = 0.0, fastest = 0.0;
+        for (const chain& c : chains)
+            for (int j = 0; j < c.pairs(); ++j) {
+                const auto [a, b, l] = detail::pair_of(c, j);
+                if (!latch[l]) continue;
+                const double rate = detail::opening_rate(apothem[a], apothem[b], velocity[a], velocity[b]);
+                const double push = std::max(-holding[l], rate / (1.0 / stiffness[a] + 1.0 / stiffness[b]));
+                const double inward = apothem[a] >= apothem[b] ? push : -push;
+                holding[l] += push;
+                velocity[a] += inward / stiffness[a], velocity[b] -= inward / stiffness[b];
+                moved = std::max(moved, std::abs(push) * (1.0 / stiffness[a] + 1.0 / stiffness[b]));
+                fastest = std::max({fastest, std::abs(velocity[a]), std::abs(velocity[b])});
+            }
+        if (moved <= 1e-3 * fastest) break;
+    }
+    return static_cast<int>(std::count_if(holding.begin(), holding.end(), [](double f) { return f > 0.0; }));
 }
 
 } // namespace clast::control

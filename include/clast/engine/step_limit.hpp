@@ -93,10 +93,12 @@ void add_stiffness(const S& s, stiffness_sum& k, const incidence& of, std::size_
         } else if constexpr (S::has_walls) {
             const boundaries::wall_row& w = wall[r - list.size()];
             const double rp = s.radius(w.pebble);
-            for (const boundaries::touch& t : w.touch)
-                k.add(t.normal, law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.depth)),
-                      s.walls_rub() ? law_at(s, t).shear_stiffness(s.overlap_at_wall(w.pebble, t.depth)) : 0.0,
+            for (const boundaries::touch& t : w.touch) { // facets that span a face bear a part of its stiffness each
+                const auto o = s.overlap_at_wall(w.pebble, t.depth / t.part);
+                k.add(t.normal, t.part * law_at(s, t).normal_stiffness(o),
+                      s.walls_rub() ? t.part * law_at(s, t).shear_stiffness(o) : 0.0,
                       s.position(w.pebble) - rp * t.normal - centre);
+            }
         }
     }
 }

@@ -83,22 +83,29 @@ void add_loads(const S& s, const std::vector<boundaries::wall_row>& wall, double
     for (const boundaries::wall_row& w : wall) {
         if (w.touch.size == 0) continue;
         const double way = norm(boundaries::lateral_push(w.touch));
-        boundaries::sharing_matrix sharing{};
-        int lateral = 0;
-        if (couplings != nullptr && w.touch.size > 1) sharing = boundaries::sharing(w.touch);
-        std::array<const boundaries::touch*, 3> seen{};
+        const auto stiffness = [&](const boundaries::touch& t) {
+            return law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.at_platen() ? t.depth : way));
+        };
+        if (couplings == nullptr || w.touch.size == 1 || boundaries::is_one_face(w.touch)) {
+            // a face that several facets span: each against what all of its facets do together
+            for (const boundaries::touch& t : w.touch)
+                loads[s.at(t.facet)].add(t, share * w.share(t), share * stiffness(t) * t.part);
+            continue;
+        }
+        const boundaries::sharing shared(w.touch);
+        std::array<const boundaries::touch*, boundaries::most_touches> seen{};
+        std::size_t lateral = 0;
         for (const boundaries::touch& t : w.touch) {
-            const double f = w.share(t);
-            const double k = law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.at_platen() ? t.depth : way));
-            if (t.at_platen() || couplings == nullptr || w.touch.size == 1) {
+            const double f = w.share(t), k = stiffness(t);
+            if (t.at_platen()) {
                 loads[s.at(t.facet)].add(t, share * f, share * k);
                 continue;
             }
-            const auto i = static_cast<std::size_t>(lateral);
-            loads[s.at(t.facet)].add(t, share * f, share * k * sharing[i][i]);
-            for (std::size_t j = 0; j < i; ++j)
-                couplings->push_back({seen[j]->facet, t.facet, k * sharing[i][j] * seen[j]->along * t.along});
-            seen[s.at(lateral++)] = &t;
+            loads[s.at(t.facet)].add(t, share * f, share * k * shared(lateral, lateral) * (t.part * t.part));
+            for (std::size_t j = 0; j < lateral; ++j)
+                couplings->push_back({seen[j]->facet, t.facet,
+                                      k * shared(lateral, j) * seen[j]->along * t.along * (seen[j]->part * t.part)});
+            seen[lateral++] = &t;
         }
     }
 }
