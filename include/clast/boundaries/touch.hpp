@@ -63,6 +63,14 @@ constexpr vec3 lateral_push(const touches& t) {
     return u;
 }
 
+/// Point of the wall (m) that a pebble (centre x, radius r, m) presses on at one of its touches: where it rests on that
+/// facet once it has gone the way out. At a facet alone this is x - (r - depth) normal; where lateral facets share the
+/// pebble, a point of each of them, so that their forces together have no moment about x.
+inline vec3 point_on_wall(const touches& all, const touch& one, const vec3& x, double r) {
+    const vec3 way = one.at_platen() ? one.depth * one.normal : lateral_push(all);
+    return x + way - r * one.normal;
+}
+
 /// Elastic energy (J) of a pebble's boundary contacts with contact stiffness k_platen and k_lateral (N/m).
 constexpr double elastic_energy(const touches& t, double k_platen, double k_lateral) {
     double energy = 0.5 * k_lateral * norm2(lateral_push(t));

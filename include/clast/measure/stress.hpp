@@ -16,8 +16,9 @@
 namespace clast::measure {
 
 /// Calls f(force, branch, point) for every force that one body passes on to another or to a facet: force (N) on the
-/// second partner, branch (m) from the first centre to the second centre (or to the point on the facet). Bonds of
-/// clusters are such forces, too.
+/// second partner, branch (m) from the first centre to the second centre, or to the point of the wall that takes the
+/// force: branches that end elsewhere, at the surface of a pebble that reaches into the wall, would add the overlap to
+/// the length of the specimen. Bonds of clusters are such forces, too.
 template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
     const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
     const auto& s = e.grains;
@@ -27,13 +28,15 @@ template <class Engine, class F> void each_branch(const Engine& e, F&& f) {
         f(-row.force, e.branch_of(row, pair), p.x + (p.radius - 0.5 * row.depth) * row.normal);
     });
     e.each_wall_row([&](const auto& w) {
-        const std::size_t p = at(w.pebble);
+        const auto& p = s.pebbles[at(w.pebble)];
+        vec3 way = boundaries::lateral_push(w.touch); // out of all that it touches
         for (const boundaries::touch& t : w.touch) {
-            const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * t.normal;
+            const vec3 point = boundaries::point_on_wall(w.touch, t, p.x, p.radius);
             f(-w.share(t) * t.normal, point - e.centre_of(w.pebble), point);
+            if (t.at_platen()) way += t.depth * t.normal;
         }
         if (norm2(w.friction) > 0.0) {
-            const vec3 point = s.pebbles[p].x - s.pebbles[p].radius * unit(w.force - w.friction);
+            const vec3 point = p.x + way - p.radius * unit(w.force - w.friction);
             f(-w.friction, point - e.centre_of(w.pebble), point);
         }
     });
