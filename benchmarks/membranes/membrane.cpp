@@ -41,7 +41,7 @@ template <class B> struct policies : triaxial_policies_default {
 /// What one state of a specimen says of its membrane.
 struct balance {
     double bottom = 0.0, top = 0.0; ///< forces of the platens (N)
-    double bottom_area = 0.0, top_area = 0.0, section = 0.0;
+    double bottom_area = 0.0, top_area = 0.0;
     double worst = 0.0;                              ///< largest imbalance over sections, over F
     double unequal = 0.0;                            ///< |F_top - F_bottom - sigma_3 (A_top - A_bottom)| / F
     double q = 0.0, q_contacts = 0.0, sigma_3 = 0.0; ///< Pa
@@ -54,8 +54,7 @@ template <class Test> balance balance_of(const Test& test, int sections) {
     balance out;
     out.bottom = loads[0].force, out.top = loads[1].force;
     const double low = b.bottom(), h = b.height(), eps = 1e-9 * h;
-    out.bottom_area = b.section_at(low + eps), out.top_area = b.section_at(low + h - eps);
-    out.section = b.volume() / h;
+    out.bottom_area = b.end_section(0), out.top_area = b.end_section(1);
     out.sigma_3 = b.lateral_stress(loads);
     std::vector<double> up(static_cast<std::size_t>(sections), 0.0); // vertical force of the membrane, slice by slice
     sim.each_wall_row([&](const auto& w) {
@@ -75,7 +74,7 @@ template <class Test> balance balance_of(const Test& test, int sections) {
         out.worst = std::max(out.worst, std::abs(sum - out.sigma_3 * (area - out.bottom_area)) / force);
     }
     out.unequal = std::abs(out.top - out.bottom - out.sigma_3 * (out.top_area - out.bottom_area)) / force;
-    out.q = 0.5 * ((out.bottom - out.sigma_3 * out.bottom_area) + (out.top - out.sigma_3 * out.top_area)) / out.section;
+    out.q = boundaries::deviator(b, loads);
     const mat3 lw = measure::love_weber(sim, b.volume());
     out.q_contacts = lw(2, 2) - 0.5 * (lw(0, 0) + lw(1, 1));
     return out;

@@ -115,20 +115,24 @@ summary_numbers summarise(std::span<const sample> rows) {
     n.broken_in_shear = end.broken_tension + end.broken_shear - first.broken_tension - first.broken_shear;
     n.peak_q = {first.q, first.axial_strain, first.p};
     n.e_min = {first.void_ratio, first.axial_strain, first.p};
-    double error_sum = 0.0;
+    double error_sum = 0.0, late_q = 0.0, late_contacts = 0.0, largest_strain = 0.0;
+    for (const sample* s : shear) largest_strain = std::max(largest_strain, s->axial_strain);
     for (const sample* s : shear) {
         if (s->q > n.peak_q.value) n.peak_q = {s->q, s->axial_strain, s->p};
         if (s->void_ratio < n.e_min.value) n.e_min = {s->void_ratio, s->axial_strain, s->p};
         n.max_energy_residual = std::max(n.max_energy_residual, std::abs(s->energy_residual));
         n.max_inertial_number = std::max(n.max_inertial_number, s->inertial_number);
         n.max_overlap_over_r = std::max(n.max_overlap_over_r, s->max_overlap_over_r);
-        if (s->axial_strain > 0.01 && s->sigma_1 > 0.0)
-            n.max_stress_mismatch =
-                std::max(n.max_stress_mismatch, std::abs(s->sigma_1 - s->sigma_1_love_weber) / s->sigma_1);
+        n.peak_q_contacts = std::max(n.peak_q_contacts, s->q_contacts);
+        if (s->q > 0.1 * s->sigma_3)
+            n.max_q_mismatch = std::max(n.max_q_mismatch, std::abs(s->q_contacts / s->q - 1.0));
+        if (s->stage == shear_stages.front() && s->axial_strain >= 0.8 * largest_strain)
+            late_q += s->q, late_contacts += s->q_contacts;
         if (s == shear.front()) continue; // its error still belongs to the stage before
         error_sum += s->confining_error;
         n.max_confining_error = std::max(n.max_confining_error, s->confining_error);
     }
+    n.contacts_over_q = late_q > 0.0 ? late_contacts / late_q : 0.0;
     n.mean_confining_error = error_sum / static_cast<double>(shear.size() - 1);
 
     // moving average over 0.2 % of strain, within one stage so that an unloading branch does not mix in
@@ -263,6 +267,9 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
     if (n.sheared)
         j["shear"] = {{"peak_q_Pa", n.peak_q.value},
                       {"peak_q_axial_strain", n.peak_q.axial_strain},
+                      {"peak_q_contacts_Pa", n.peak_q_contacts},
+                      {"q_contacts_over_q_last_fifth_of_strain", n.contacts_over_q},
+                      {"max_q_mismatch", n.max_q_mismatch},
                       {"phi_max_deg", n.phi_max.value},
                       {"phi_max_axial_strain", n.phi_max.axial_strain},
                       {"phi_max_p_Pa", n.phi_max.p},
@@ -279,7 +286,6 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
                       {"max_energy_residual", n.max_energy_residual},
                       {"max_inertial_number", n.max_inertial_number},
                       {"max_overlap_over_r", n.max_overlap_over_r},
-                      {"max_stress_mismatch_beyond_1_percent", n.max_stress_mismatch},
                       {"replaced", n.replaced_in_shear},
                       {"broken_bonds", n.broken_in_shear}};
     j["breakage"] = {{"replaced", n.replaced},
@@ -327,6 +333,8 @@ void result_folder::finish(const run_facts& facts) {
                    100 * n.peak_q.axial_strain);
         fmt::print("  q at the end        {:8.3f} MPa at axial strain {:.1f} %\n", n.q_end / 1e6,
                    100 * n.axial_strain_end);
+        fmt::print("  q from contacts     {:8.3f} of that at the ends, in the last fifth of the strain\n",
+                   n.contacts_over_q);
         fmt::print("  phi_max             {:8.1f} deg at p' {:.2f} MPa\n", n.phi_max.value, n.phi_max.p / 1e6);
         fmt::print("  volumetric strain   {:+8.2f} % at the end (dilation positive)\n",
                    0.0 - 100 * n.volumetric_strain_end);

@@ -60,11 +60,14 @@ struct stage_time {
 struct summary_numbers {
     std::vector<stage_time> stages;
     bool sheared = false;
-    extreme peak_q;       ///< (Pa), largest row
-    extreme phi_max;      ///< mobilised friction angle (degrees) after a 0.2 % strain moving average (Fig. 14)
-    extreme e_min;        ///< smallest void ratio (Fig. 15)
-    double e_start = 0.0; ///< void ratio at the start of shear
-    double q_end = 0.0;   ///< (Pa)
+    extreme peak_q;               ///< of the laboratory (Pa), largest row
+    double peak_q_contacts = 0.0; ///< the same from contacts (Pa)
+    double contacts_over_q = 0.0; ///< mean of q from contacts over mean of q, in the last fifth of the strain
+    double max_q_mismatch = 0.0;  ///< |q - q from contacts| / q, largest where q exceeds a tenth of sigma_3
+    extreme phi_max;              ///< mobilised friction angle (degrees) after a 0.2 % strain moving average (Fig. 14)
+    extreme e_min;                ///< smallest void ratio (Fig. 15)
+    double e_start = 0.0;         ///< void ratio at the start of shear
+    double q_end = 0.0;           ///< (Pa)
     double volumetric_strain_end = 0.0; ///< compression positive
     double axial_strain_end = 0.0;
     double mean_confining_error = 0.0;
@@ -72,7 +75,6 @@ struct summary_numbers {
     double max_energy_residual = 0.0; ///< largest magnitude
     double max_inertial_number = 0.0;
     double max_overlap_over_r = 0.0;
-    double max_stress_mismatch = 0.0; ///< |sigma_1 wall - Love-Weber| / wall, largest beyond 1 % axial strain
     std::int64_t replaced = 0, broken_tension = 0, broken_shear = 0, escaped = 0;
     std::int64_t replaced_in_shear = 0, broken_in_shear = 0;
     std::int64_t steps = 0;

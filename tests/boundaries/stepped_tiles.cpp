@@ -304,7 +304,7 @@ TEST_CASE("under the target stress nothing moves, and the errors are zero", "[bo
     stepped_tiles wall = bent(12);
     std::vector<facet_load> loads(static_cast<std::size_t>(wall.facet_count()));
     for (int f = 0; f < wall.facet_count(); ++f)
-        loads[static_cast<std::size_t>(f)] = {2e6 * (f < 2 ? wall.section() : wall.area(f)), contact, 1};
+        loads[static_cast<std::size_t>(f)] = {2e6 * (f < 2 ? wall.end_section(f) : wall.area(f)), contact, 1};
     drives d = servo(2e6, 0.02);
     d.platens = {drive::mode::servo, 2e6, 0.02, 0.5};
     wall.control(loads, d, 1e-5);

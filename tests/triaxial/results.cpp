@@ -42,7 +42,9 @@ std::vector<sample> some_rows() {
         s.wall_time = 2 + 0.1 * i;
         s.axial_strain = e;
         s.q = 1e6 * (4.0 - 400.0 * (e - 0.1) * (e - 0.1)); // peak 4 MPa at 10 %
+        s.sigma_3 = 2e6;
         s.p = 2e6 + s.q / 3.0;
+        s.q_contacts = (i == 50 ? 1.02 : e < 0.2 ? 1.004 : 1.01) * s.q;               // the last fifth begins at 20 %
         s.phi_mob_deg = 40.0 - 1000.0 * (e - 0.1) * (e - 0.1) + (i % 2 ? 1.0 : -1.0); // a ripple from row to row
         s.void_ratio = 1.4 + 10.0 * (e - 0.05) * (e - 0.05);
         s.confining_error = i == 250 ? 0.02 : i == 0 ? 5.0 : 0.001;
@@ -74,6 +76,9 @@ TEST_CASE("the summary finds peak, friction angle after averaging, void ratio, e
     REQUIRE(n.e_min.value == Approx(1.4).epsilon(1e-12));
     REQUIRE(n.e_min.axial_strain == Approx(0.05).epsilon(1e-12));
     REQUIRE(n.e_start == Approx(1.425).epsilon(1e-12));
+    REQUIRE(n.peak_q_contacts == Approx(1.004 * 4e6).epsilon(1e-12));
+    REQUIRE(n.contacts_over_q == Approx(1.01).epsilon(1e-12));
+    REQUIRE(n.max_q_mismatch == Approx(0.02).epsilon(1e-9));
     REQUIRE(n.mean_confining_error == Approx((499 * 0.001 + 0.02) / 500).epsilon(1e-12));
     REQUIRE(n.max_confining_error == 0.02);
     REQUIRE(n.max_energy_residual == 0.004);
@@ -183,6 +188,7 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     REQUIRE(j["inputs"]["confining stress"] == "2000000 Pa");
     REQUIRE(j["specimen"]["grains"] == 50);
     REQUIRE(j["shear"]["peak_q_Pa"].get<double>() == Approx(4e6));
+    REQUIRE(j["shear"]["q_contacts_over_q_last_fifth_of_strain"].get<double>() == Approx(1.01));
     REQUIRE(j["stages"].size() == 2);
     REQUIRE(j["more"]["grain_step_s"] == 1e-5);
     REQUIRE(j["final_state_checksum"] == "0000000000000abc");

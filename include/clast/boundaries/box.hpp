@@ -132,6 +132,8 @@ class box {
     /// Half of the shorter horizontal side (m): radius of the widest upright cylinder that fits.
     double radius() const { return 0.5 * std::min(high_.x - low_.x, high_.y - low_.y); }
     double section() const { return area(bottom_platen); }
+    /// Area of the specimen at a platen (m^2): the section, at both.
+    double end_section(int /*platen*/) const { return section(); }
     double axial_stress(std::span<const facet_load> loads) const { return stress(loads, 2); }
     double lateral_stress(std::span<const facet_load> loads) const {
         return 0.5 * (stress(loads, 0) + stress(loads, 1));

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/cylinder_settings.hpp>
 #include <clast/boundaries/drive.hpp>
 #include <clast/boundaries/touch.hpp>
@@ -160,7 +161,7 @@ void faceted_cylinder<Unit, Surface>::control(std::span<const facet_load> loads,
     const facet_load& high = loads[top_platen];
     const double closing =
         d.platens.how == mode::servo
-            ? control::inward_velocity({d.platens.value * this->section(), 0.5 * (low.force + high.force),
+            ? control::inward_velocity({axial_force(*this, loads, d.platens.value), 0.5 * (low.force + high.force),
                                         0.5 * (low.stiffness + high.stiffness), set_.contact_stiffness_floor, dt,
                                         d.platens.gain, d.platens.max_speed})
             : (d.platens.how == mode::velocity ? d.platens.value : 0.0);

@@ -16,6 +16,7 @@
 
 #include <fmt/core.h>
 
+#include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/cylinder_settings.hpp>
 #include <clast/boundaries/plate.hpp>
 #include <clast/boundaries/platens.hpp>
@@ -152,10 +153,8 @@ template <class = void> class node_rows {
     }
     /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
     double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
-    /// Mean stress of the two platens: mean force / section (Pa).
-    double axial_stress(std::span<const facet_load> loads) const {
-        return 0.5 * (loads[bottom_platen].force + loads[top_platen].force) / section();
-    }
+    /// Axial stress of the laboratory (axial.hpp, Pa).
+    double axial_stress(std::span<const facet_load> loads) const { return boundaries::axial_stress(*this, loads); }
     /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
     double confining_error(std::span<const facet_load> loads, double sigma) const {
         return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
@@ -578,7 +577,7 @@ template <class X> std::vector<facet_view> node_rows<X>::view(std::span<const fa
     for (int f = 0; f < first_lateral_facet; ++f) {
         const double z = f == bottom_platen ? platens_.bottom : platens_.top;
         out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
-                       loads[index(f)].force / section(),
+                       loads[index(f)].force / end_section(f),
                        area(f),
                        -1,
                        -1});

@@ -173,7 +173,9 @@ class rigid_cylinder {
     double fastest() const {
         return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), std::abs(wall_velocity_)});
     }
-    /// Mean stress of the two platens: mean force / section (Pa, compression positive).
+    /// Area of the specimen at a platen (m^2): the section, at both.
+    double end_section(int /*platen*/) const { return section(); }
+    /// Axial stress (Pa, compression positive): mean force of the two platens / section, as of a straight specimen.
     double axial_stress(std::span<const facet_load> loads) const {
         return 0.5 * (loads[bottom_platen].force + loads[top_platen].force) / section();
     }

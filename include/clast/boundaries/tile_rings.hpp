@@ -16,6 +16,7 @@
 
 #include <fmt/core.h>
 
+#include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/cylinder_settings.hpp>
 #include <clast/boundaries/platens.hpp>
 #include <clast/boundaries/polygon.hpp>
@@ -162,10 +163,15 @@ template <class = void> class tile_rings {
     }
     /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
     double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
-    /// Mean stress of the two platens: mean force / section (Pa).
-    double axial_stress(std::span<const facet_load> loads) const {
-        return 0.5 * (loads[bottom_platen].force + loads[top_platen].force) / section();
+    /// Area of the specimen at a platen (m^2; 0 bottom, 1 top): that of the polygon of the ring there.
+    double end_section(int platen) const {
+        const int ring = platen == bottom_platen ? 0 : rings_ - 1;
+        double sum = 0.0;
+        for (int i = 0; i < around_; ++i) sum += 0.5 * visible_[tile(ring, i)].width() * apothem_[tile(ring, i)];
+        return sum;
     }
+    /// Axial stress of the laboratory, sigma_3 + q (Pa): boundaries/axial.hpp.
+    double axial_stress(std::span<const facet_load> loads) const { return boundaries::axial_stress(*this, loads); }
     /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
     double confining_error(std::span<const facet_load> loads, double sigma) const {
         return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
@@ -378,8 +384,8 @@ template <class X> std::vector<facet_view> tile_rings<X>::view(std::span<const f
     for (int f = 0; f < first_lateral_facet; ++f) {
         const double z = f == bottom_platen ? platens_.bottom : platens_.top;
         out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
-                       loads[index(f)].force / section(),
-                       area(f),
+                       loads[index(f)].force / end_section(f),
+                       end_section(f),
                        -1,
                        -1});
     }

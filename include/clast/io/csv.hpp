@@ -51,6 +51,7 @@ inline constexpr column<sample> series_columns[] = {
     {"sigma_3", "Pa", [](sample& r) -> cell { return &r.sigma_3; }},
     {"p", "Pa", [](sample& r) -> cell { return &r.p; }},
     {"q", "Pa", [](sample& r) -> cell { return &r.q; }},
+    {"q_contacts", "Pa", [](sample& r) -> cell { return &r.q_contacts; }},
     {"sigma_1_love_weber", "Pa", [](sample& r) -> cell { return &r.sigma_1_love_weber; }},
     {"sigma_3_love_weber", "Pa", [](sample& r) -> cell { return &r.sigma_3_love_weber; }},
     {"void_ratio", "", [](sample& r) -> cell { return &r.void_ratio; }},

@@ -19,10 +19,11 @@ struct sample {
     double volumetric_strain = 0.0;    ///< 1 - V/V0, positive in compression
     double height = 0.0;               ///< platen distance H (m)
     double volume = 0.0;               ///< enclosed volume V (m^3)
-    double sigma_1 = 0.0;              ///< mean platen stress (Pa)
-    double sigma_3 = 0.0;              ///< mean membrane stress (Pa)
-    double p = 0.0;                    ///< (sigma_1 + 2 sigma_3) / 3 (Pa)
-    double q = 0.0;                    ///< sigma_1 - sigma_3 (Pa)
+    double sigma_1 = 0.0;              ///< sigma_3 + q (Pa)
+    double sigma_3 = 0.0;              ///< mean membrane stress: force / area (Pa)
+    double p = 0.0;                    ///< sigma_3 + q / 3 = (sigma_1 + 2 sigma_3) / 3 (Pa)
+    double q = 0.0;                    ///< of the laboratory: (F - sigma_3 A_end) / (V / H), mean of both ends (Pa)
+    double q_contacts = 0.0;           ///< from contacts: sigma_1_love_weber - sigma_3_love_weber (Pa)
     double sigma_1_love_weber = 0.0;   ///< axial stress from contacts (Pa)
     double sigma_3_love_weber = 0.0;   ///< mean radial stress from contacts (Pa)
     double void_ratio = 0.0;           ///< (V - V_s) / V_s with V_s the pebble volume

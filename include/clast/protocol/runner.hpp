@@ -15,6 +15,7 @@
 
 #include <fmt/core.h>
 
+#include <clast/boundaries/axial.hpp>
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/engine/engine.hpp>
@@ -107,13 +108,14 @@ template <class P> class runner {
         s.volume = b.volume();
         s.axial_strain = axial_strain();
         s.volumetric_strain = 1.0 - s.volume / reference_volume_;
-        s.sigma_1 = b.axial_stress(sim.loads());
         s.sigma_3 = b.lateral_stress(sim.loads());
-        s.p = (s.sigma_1 + 2.0 * s.sigma_3) / 3.0;
-        s.q = s.sigma_1 - s.sigma_3;
+        s.q = boundaries::deviator(b, sim.loads());
+        s.sigma_1 = s.sigma_3 + s.q;
+        s.p = s.sigma_3 + s.q / 3.0;
         const mat3 lw = measure::love_weber(sim, s.volume);
         s.sigma_1_love_weber = lw(2, 2);
         s.sigma_3_love_weber = 0.5 * (lw(0, 0) + lw(1, 1));
+        s.q_contacts = s.sigma_1_love_weber - s.sigma_3_love_weber;
         s.void_ratio = (s.volume - solid_volume_) / solid_volume_;
         s.porosity = 1.0 - solid_volume_ / s.volume;
         const double sum = s.sigma_1 + s.sigma_3;
@@ -248,9 +250,10 @@ template <class P> class runner {
     void look() {
         const auto& b = sim.boundary;
         const stage& s = current();
-        const double sigma_1 = b.axial_stress(sim.loads()), sigma_3 = b.lateral_stress(sim.loads());
-        view_.p = (sigma_1 + 2.0 * sigma_3) / 3.0;
-        view_.q = sigma_1 - sigma_3;
+        const double sigma_3 = b.lateral_stress(sim.loads());
+        view_.q = boundaries::deviator(b, sim.loads());
+        view_.p = sigma_3 + view_.q / 3.0;
+        const double sigma_1 = sigma_3 + view_.q;
         view_.axial_strain = axial_strain();
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
         view_.steps = stage_steps_;

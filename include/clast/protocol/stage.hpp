@@ -46,8 +46,8 @@ inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::r
 struct stage_view {
     double axial_strain = 0.0;      ///< since the reference state
     double volumetric_strain = 0.0; ///< compression positive
-    double q = 0.0;                 ///< Pa
-    double p = 0.0;                 ///< Pa
+    double q = 0.0;                 ///< of the laboratory, boundaries/axial.hpp (Pa)
+    double p = 0.0;                 ///< sigma_3 + q / 3 (Pa)
     double unbalanced_ratio = 1.0;
     double sphere_stress = 0.0;      ///< largest |p'| in the three measurement spheres (Pa)
     double mean_contact_force = 0.0; ///< N

@@ -16,22 +16,24 @@
 
 namespace clast::protocol {
 
-/// Knows the specimen's size: enclosed volume (m^3), height (m), the lower platen's level (m), the radius (m), whether
-/// a sphere has room inside, touching nothing, and whether it has got out.
+/// Knows the specimen's size: enclosed volume (m^3), height (m), the lower platen's level (m), the radius (m), the area
+/// of the specimen at each platen (m^2; 0 bottom, 1 top), whether a sphere has room inside, touching nothing, and
+/// whether it has got out.
 template <class B>
-concept encloses = requires(const B& b, vec3 x, double length) {
+concept encloses = requires(const B& b, vec3 x, double length, int platen) {
     { b.volume() } -> std::convertible_to<double>;
     { b.height() } -> std::convertible_to<double>;
     { b.bottom() } -> std::convertible_to<double>;
     { b.radius() } -> std::convertible_to<double>;
+    { b.end_section(platen) } -> std::convertible_to<double>;
     { b.holds(x, length) } -> std::same_as<bool>;
     { b.outside(x, length) } -> std::same_as<bool>;
 };
 
-/// Measures stress (Pa, compression positive) and the relative error of the confining stress.
+/// Measures the lateral stress (Pa, compression positive) and its relative error. The axial one follows from the forces
+/// on the platens and the areas of the ends (boundaries/axial.hpp).
 template <class B>
 concept measures_stress = requires(const B& b, std::span<const boundaries::facet_load> loads, double sigma) {
-    { b.axial_stress(loads) } -> std::convertible_to<double>;
     { b.lateral_stress(loads) } -> std::convertible_to<double>;
     { b.confining_error(loads, sigma) } -> std::convertible_to<double>;
 };
@@ -73,7 +75,7 @@ template <class B> struct vessel {
         requires(const B& b, const sizes& s) { b.resized(s); }, requires(const B& b) { b.radius(); },
         requires(const B& b) { b.bottom(); }, requires(const B& b) { b.height(); },
         requires(const B& b) { b.volume(); }, requires(const B& b, vec3 x) { b.holds(x, 1.0); },
-        requires(const B& b, vec3 x) { b.outside(x, 1.0); }, requires(const B& b, loads l) { b.axial_stress(l); },
+        requires(const B& b, vec3 x) { b.outside(x, 1.0); }, requires(const B& b) { b.end_section(0); },
         requires(const B& b, loads l) { b.lateral_stress(l); },
         requires(const B& b, loads l) { b.confining_error(l, 1.0); }, requires(const B& b, loads l) { b.view(l); });
     static_assert(missing != 1, "policy boundary of the bundle is no vessel of a test, it lacks `static B "
@@ -92,8 +94,8 @@ template <class B> struct vessel {
                                 "const` (clast/protocol/vessel.hpp)");
     static_assert(missing != 8, "policy boundary of the bundle is no vessel of a test, it lacks `outside(x, radius) "
                                 "const` (clast/protocol/vessel.hpp)");
-    static_assert(missing != 9, "policy boundary of the bundle is no vessel of a test, it lacks `axial_stress(loads) "
-                                "const` (clast/protocol/vessel.hpp)");
+    static_assert(missing != 9, "policy boundary of the bundle is no vessel of a test, it lacks "
+                                "`end_section(platen) const` (clast/protocol/vessel.hpp)");
     static_assert(missing != 10, "policy boundary of the bundle is no vessel of a test, it lacks "
                                  "`lateral_stress(loads) const` (clast/protocol/vessel.hpp)");
     static_assert(missing != 11, "policy boundary of the bundle is no vessel of a test, it lacks "
