@@ -100,6 +100,10 @@ summary_numbers summarise(std::span<const sample> rows) {
     n.replaced = last.replaced, n.broken_tension = last.broken_tension, n.broken_shear = last.broken_shear,
     n.escaped = last.escaped;
     n.steps = last.steps, n.wall_time = last.wall_time;
+    for (const sample& s : rows) {
+        n.median_overlap_over_r = std::max(n.median_overlap_over_r, s.median_overlap_over_r);
+        n.max_overlap_over_r = std::max(n.max_overlap_over_r, s.max_overlap_over_r);
+    }
 
     std::vector<const sample*> shear;
     for (const sample& s : rows)
@@ -122,7 +126,6 @@ summary_numbers summarise(std::span<const sample> rows) {
         if (s->void_ratio < n.e_min.value) n.e_min = {s->void_ratio, s->axial_strain, s->p};
         n.max_energy_residual = std::max(n.max_energy_residual, std::abs(s->energy_residual));
         n.max_inertial_number = std::max(n.max_inertial_number, s->inertial_number);
-        n.max_overlap_over_r = std::max(n.max_overlap_over_r, s->max_overlap_over_r);
         n.peak_q_contacts = std::max(n.peak_q_contacts, s->q_contacts);
         if (s->q > 0.1 * s->sigma_3)
             n.max_q_mismatch = std::max(n.max_q_mismatch, std::abs(s->q_contacts / s->q - 1.0));
@@ -132,7 +135,7 @@ summary_numbers summarise(std::span<const sample> rows) {
         error_sum += s->confining_error;
         n.max_confining_error = std::max(n.max_confining_error, s->confining_error);
     }
-    n.contacts_over_q = late_q > 0.0 ? late_contacts / late_q : 0.0;
+    n.contacts_over_q = late_q != 0.0 ? late_contacts / late_q : 0.0;
     n.mean_confining_error = error_sum / static_cast<double>(shear.size() - 1);
 
     // moving average over 0.2 % of strain, within one stage so that an unloading branch does not mix in
@@ -151,6 +154,21 @@ summary_numbers summarise(std::span<const sample> rows) {
         any = true;
     }
     return n;
+}
+
+std::vector<std::string> remarks(const summary_numbers& n) {
+    std::vector<std::string> all;
+    // a tenth in the middle: half of all contacts are deeper than what "rigid grains with small overlaps" means
+    if (n.median_overlap_over_r > 0.1)
+        all.push_back(
+            fmt::format("note: half of all contacts overlap by more than {:.2f} of the smaller radius; grains "
+                        "are soft against this stress, and stiffer ones would pack and shear otherwise",
+                        n.median_overlap_over_r));
+    if (n.max_overlap_over_r > 0.5)
+        all.push_back(fmt::format("warning: the largest overlap was {:.2f} of the smaller radius; where small pebbles "
+                                  "carry load their contacts are far outside of what a linear spring stands for",
+                                  n.max_overlap_over_r));
+    return all;
 }
 
 result_folder::result_folder(const options& o) : options_(o), folder_(o.out) {
@@ -285,13 +303,14 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
                       {"max_confining_error", n.max_confining_error},
                       {"max_energy_residual", n.max_energy_residual},
                       {"max_inertial_number", n.max_inertial_number},
-                      {"max_overlap_over_r", n.max_overlap_over_r},
                       {"replaced", n.replaced_in_shear},
                       {"broken_bonds", n.broken_in_shear}};
     j["breakage"] = {{"replaced", n.replaced},
                      {"broken_tension", n.broken_tension},
                      {"broken_shear", n.broken_shear},
                      {"escaped", n.escaped}};
+    j["overlap"] = {{"median_over_r", n.median_overlap_over_r}, {"max_over_r", n.max_overlap_over_r}};
+    j["remarks"] = remarks(n);
     j["stages"] = json::array();
     for (const stage_time& s : n.stages)
         j["stages"].push_back(
@@ -351,6 +370,8 @@ void result_folder::finish(const run_facts& facts) {
                    "<= {:.1e}\n",
                    100 * n.mean_confining_error, 100 * n.max_confining_error, 100 * n.max_energy_residual,
                    n.max_inertial_number);
+    fmt::print("  overlap             {:8.2f} of the radius in the median, {:.2f} largest\n", n.median_overlap_over_r,
+               n.max_overlap_over_r);
     for (const stage_time& s : n.stages)
         fmt::print("  {:<20}{:8} steps, {:.3f} s of model time, {}\n", s.name, s.steps, s.model_time,
                    time_text(s.wall_time));
@@ -366,6 +387,7 @@ void result_folder::finish(const run_facts& facts) {
     if (!report.pictures.empty())
         fmt::print("  {:<40} {} figures (.svg and .png) and their gnuplot scripts\n", (folder_ / "plots").string(),
                    report.pictures.size() / 2);
+    for (const std::string& remark : remarks(n)) fmt::print("{}\n", remark);
     for (const std::string& problem : report.problems) fmt::print("note: {}\n", problem);
 }
 

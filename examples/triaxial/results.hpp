@@ -74,13 +74,17 @@ struct summary_numbers {
     double max_confining_error = 0.0;
     double max_energy_residual = 0.0; ///< largest magnitude
     double max_inertial_number = 0.0;
-    double max_overlap_over_r = 0.0;
+    double median_overlap_over_r = 0.0; ///< largest median of a row, of all stages
+    double max_overlap_over_r = 0.0;    ///< largest of all rows
     std::int64_t replaced = 0, broken_tension = 0, broken_shear = 0, escaped = 0;
     std::int64_t replaced_in_shear = 0, broken_in_shear = 0;
     std::int64_t steps = 0;
     double wall_time = 0.0; ///< (s)
 };
 summary_numbers summarise(std::span<const clast::sample> rows);
+/// What should be known of a run before its numbers are used: sentences, with their weight in front ("note",
+/// "warning").
+std::vector<std::string> remarks(const summary_numbers& n);
 
 /// Names of the stages that count as shear, and as compression, in figures and summary.
 inline const std::vector<std::string> shear_stages{"shear", "unload"};

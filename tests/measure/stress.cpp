@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/boundaries/box.hpp>
@@ -99,11 +100,50 @@ TEST_CASE("contacts of a column: coordination, overlap, mean force and rest") {
     CHECK(c.coordination == 1.5); // 3 pairs of 4 bodies
     CHECK(c.mean_contact_force == Approx(force).epsilon(1e-9));
     CHECK(c.max_overlap_over_r == Approx(depth / r).epsilon(1e-9));
+    CHECK(c.median_overlap_over_r == Approx(depth / r).epsilon(1e-9));
+    CHECK(c.passing == Approx(depth / r).epsilon(1e-9));
     CHECK(c.unbalanced_ratio < 1e-9);
     const measure::contact_state open = measure::contacts_of(column(2, -1e-5));
     CHECK(open.contacts == 0);
     CHECK(open.coordination == 0.0);
     CHECK(open.unbalanced_ratio == 0.0);
+}
+
+TEST_CASE("overlaps are those of all touching contacts, at platens and wall, too") {
+    // a column of three: 0.1 and 0.2 mm between spheres, 0.3 mm at the bottom, 0.5 mm at the top, and one sphere alone
+    // that the wall touches by 0.7 mm
+    bodies::clumps sp = scenes::empty(shapes::sphere(2.0 * r));
+    double z = -0.03 + r - 3e-4;
+    for (const double overlap : {1e-4, 2e-4, 0.0}) sp.add(0, {0, 0, z}, {}), z += 2.0 * r - overlap;
+    const double top = z - 2.0 * r + r - 5e-4;
+    sp.add(0, {0.05 - r + 7e-4, 0, 0.0}, {}); // against the middle of a tile
+    boundaries::cylinder_settings around = scenes::cylinder(0.05, 0.06, r);
+    around.bottom = -0.03, around.top = top;
+    engine<rigid> e(scenes::settings<rigid>(), std::move(sp), boundaries::solid_strips(around));
+    e.step();
+    const measure::contact_state c = measure::contacts_of(e);
+    CHECK(c.contacts == 2);
+    CHECK(c.max_overlap_over_r == Approx(7e-4 / r).epsilon(1e-9));
+    CHECK(c.median_overlap_over_r == Approx(3e-4 / r).epsilon(1e-9));
+    CHECK(c.passing_i == 3);
+    CHECK(c.passing_j == measure::contact_state::at_wall);
+}
+
+TEST_CASE("a pebble that is small in its grain may be inside of what it touches") {
+    // a sphere of 10 mm and one of 1 mm or 6 mm that stands on it, and a grain that is a sphere of 1 mm
+    const auto grain = [](double small) {
+        return make_shape("studded", std::vector<shape_pebble>{{{0, 0, 0}, r}, {{0, 0, r + small}, small}});
+    };
+    bodies::clumps sp;
+    sp.shapes = {grain(1e-3), grain(6e-3), shapes::sphere(2e-3)};
+    for (int k = 0; k < 3; ++k) sp.add(k, {0.1 * k, 0, 0}, {});
+    engine<rigid> e(scenes::settings<rigid>(), std::move(sp),
+                    boundaries::solid_strips(scenes::cylinder(0.5, 0.5, 1e-3)));
+    CHECK(measure::passing_overlap(e, 0) == Approx(r));       // the large sphere
+    CHECK(measure::passing_overlap(e, 1) == Approx(0.5 * r)); // half of the one behind it
+    CHECK(measure::passing_overlap(e, 3) == Approx(6e-3));    // large enough to be looked at by itself
+    CHECK(measure::passing_overlap(e, 4) == Approx(1e-3));    // small, but all that its grain has
+    CHECK(measure::passing_overlap(e, 4, 0) == Approx(r));    // in a large one, far from its centre
 }
 
 TEST_CASE("a body that no other balances shows in the unbalanced ratio") {
@@ -116,8 +156,8 @@ TEST_CASE("a body that no other balances shows in the unbalanced ratio") {
     e.step();
     const measure::contact_state c = measure::contacts_of(e);
     CHECK(c.unbalanced_ratio == Approx(1.0).epsilon(1e-9)); // force over mean sum of forces: F / F
-    CHECK(c.deepest_i == 0);
-    CHECK(c.deepest_j == 1);
+    CHECK(c.passing_i == 0);
+    CHECK(c.passing_j == 1);
 }
 
 TEST_CASE("in a packing at rest under one stress all round, contacts and walls agree") {

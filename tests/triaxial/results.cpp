@@ -172,6 +172,22 @@ TEST_CASE("the views for the figures survive on disk") {
     REQUIRE(back.view.facets[0].tile == 8);
 }
 
+TEST_CASE("deep overlaps are told, in the middle from a tenth of the radius on and at most from a half on") {
+    std::vector<sample> rows = some_rows();
+    rows[1].median_overlap_over_r = 0.11; // before the shear: no number of a row is left out
+    rows[300].max_overlap_over_r = 0.62;
+    const summary_numbers n = summarise(rows);
+    REQUIRE(n.median_overlap_over_r == 0.11);
+    REQUIRE(n.max_overlap_over_r == 0.62);
+    const std::vector<std::string> said = remarks(n);
+    REQUIRE(said.size() == 2);
+    REQUIRE(said[0].starts_with("note: half of all contacts overlap by more than 0.11"));
+    REQUIRE(said[1].starts_with("warning: the largest overlap was 0.62"));
+    summary_numbers fine = n;
+    fine.median_overlap_over_r = 0.1, fine.max_overlap_over_r = 0.5;
+    REQUIRE(remarks(fine).empty());
+}
+
 TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     const folder f;
     const options o = f.run();
@@ -189,6 +205,8 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     REQUIRE(j["specimen"]["grains"] == 50);
     REQUIRE(j["shear"]["peak_q_Pa"].get<double>() == Approx(4e6));
     REQUIRE(j["shear"]["q_contacts_over_q_last_fifth_of_strain"].get<double>() == Approx(1.01));
+    REQUIRE(j["overlap"]["max_over_r"] == 0.0);
+    REQUIRE(j["remarks"].empty());
     REQUIRE(j["stages"].size() == 2);
     REQUIRE(j["more"]["grain_step_s"] == 1e-5);
     REQUIRE(j["final_state_checksum"] == "0000000000000abc");

@@ -13,42 +13,43 @@ namespace clast {
 
 /// State of the specimen at one instant. SI units; stress and strain are positive in compression.
 struct sample {
-    double time = 0.0;                 ///< model time (s)
-    std::string stage;                 ///< name of the running stage
-    double axial_strain = 0.0;         ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
-    double volumetric_strain = 0.0;    ///< 1 - V/V0, positive in compression
-    double height = 0.0;               ///< platen distance H (m)
-    double volume = 0.0;               ///< enclosed volume V (m^3)
-    double sigma_1 = 0.0;              ///< sigma_3 + q (Pa)
-    double sigma_3 = 0.0;              ///< mean membrane stress: force / area (Pa)
-    double p = 0.0;                    ///< sigma_3 + q / 3 = (sigma_1 + 2 sigma_3) / 3 (Pa)
-    double q = 0.0;                    ///< of the laboratory: (F - sigma_3 A_end) / (V / H), mean of both ends (Pa)
-    double q_contacts = 0.0;           ///< from contacts: sigma_1_love_weber - sigma_3_love_weber (Pa)
-    double sigma_1_love_weber = 0.0;   ///< axial stress from contacts (Pa)
-    double sigma_3_love_weber = 0.0;   ///< mean radial stress from contacts (Pa)
-    double void_ratio = 0.0;           ///< (V - V_s) / V_s with V_s the pebble volume
-    double porosity = 0.0;             ///< 1 - V_s / V
-    double phi_mob_deg = 0.0;          ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
-    double inertial_number = 0.0;      ///< paper Eq. 2
-    double unbalanced_ratio = 0.0;     ///< max |F_unbalanced| / mean sum |F_contact|
-    double confining_error = 0.0;      ///< |sum F - sigma_3 sum A| / (sigma_3 sum A), mean since the last sample
-    double max_overlap_over_r = 0.0;   ///< largest contact overlap over the smaller pebble radius
-    double kappa = 0.0;                ///< k_n / (p d)
-    double coordination = 0.0;         ///< touching neighbours per body (grains and boundary facets not counted)
-    std::int64_t replaced = 0;         ///< clumps replaced by bonded clusters so far
-    std::int64_t broken_tension = 0;   ///< bonds broken in tension so far
-    std::int64_t broken_shear = 0;     ///< bonds broken in shear so far
-    std::int64_t escaped = 0;          ///< grains outside the boundary (a run stops at the first)
-    double kinetic_energy = 0.0;       ///< (J)
-    double elastic_energy = 0.0;       ///< contacts, facets and bonds (J)
-    double boundary_work = 0.0;        ///< work done on the specimen by platens and membrane so far (J)
-    double friction_dissipation = 0.0; ///< (J)
-    double damping_dissipation = 0.0;  ///< (J)
-    double bond_dissipation = 0.0;     ///< energy released by broken bonds and at replacement (J)
-    double energy_residual = 0.0;      ///< (work - stored - dissipated) / work of the stage, dimensionless
-    std::int64_t steps = 0;            ///< steps so far
-    double dt = 0.0;                   ///< time step of grains (s)
-    double wall_time = 0.0;            ///< seconds of computer time so far (the only column that is not reproducible)
+    double time = 0.0;                  ///< model time (s)
+    std::string stage;                  ///< name of the running stage
+    double axial_strain = 0.0;          ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
+    double volumetric_strain = 0.0;     ///< 1 - V/V0, positive in compression
+    double height = 0.0;                ///< platen distance H (m)
+    double volume = 0.0;                ///< enclosed volume V (m^3)
+    double sigma_1 = 0.0;               ///< sigma_3 + q (Pa)
+    double sigma_3 = 0.0;               ///< mean membrane stress: force / area (Pa)
+    double p = 0.0;                     ///< sigma_3 + q / 3 = (sigma_1 + 2 sigma_3) / 3 (Pa)
+    double q = 0.0;                     ///< of the laboratory: (F - sigma_3 A_end) / (V / H), mean of both ends (Pa)
+    double q_contacts = 0.0;            ///< from contacts: sigma_1_love_weber - sigma_3_love_weber (Pa)
+    double sigma_1_love_weber = 0.0;    ///< axial stress from contacts (Pa)
+    double sigma_3_love_weber = 0.0;    ///< mean radial stress from contacts (Pa)
+    double void_ratio = 0.0;            ///< (V - V_s) / V_s with V_s the pebble volume
+    double porosity = 0.0;              ///< 1 - V_s / V
+    double phi_mob_deg = 0.0;           ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
+    double inertial_number = 0.0;       ///< paper Eq. 2
+    double unbalanced_ratio = 0.0;      ///< max |F_unbalanced| / mean sum |F_contact|
+    double confining_error = 0.0;       ///< |sum F - sigma_3 sum A| / (sigma_3 sum A), mean since the last sample
+    double median_overlap_over_r = 0.0; ///< overlap over the smaller radius, of touching contacts, walls included
+    double max_overlap_over_r = 0.0;    ///< the largest of them
+    double kappa = 0.0;                 ///< k_n / (p d)
+    double coordination = 0.0;          ///< touching neighbours per body (grains and boundary facets not counted)
+    std::int64_t replaced = 0;          ///< clumps replaced by bonded clusters so far
+    std::int64_t broken_tension = 0;    ///< bonds broken in tension so far
+    std::int64_t broken_shear = 0;      ///< bonds broken in shear so far
+    std::int64_t escaped = 0;           ///< grains outside the boundary (a run stops at the first)
+    double kinetic_energy = 0.0;        ///< (J)
+    double elastic_energy = 0.0;        ///< contacts, facets and bonds (J)
+    double boundary_work = 0.0;         ///< work done on the specimen by platens and membrane so far (J)
+    double friction_dissipation = 0.0;  ///< (J)
+    double damping_dissipation = 0.0;   ///< (J)
+    double bond_dissipation = 0.0;      ///< energy released by broken bonds and at replacement (J)
+    double energy_residual = 0.0;       ///< (work - stored - dissipated) / work of the stage, dimensionless
+    std::int64_t steps = 0;             ///< steps so far
+    double dt = 0.0;                    ///< time step of grains (s)
+    double wall_time = 0.0;             ///< seconds of computer time so far (the only column that is not reproducible)
 };
 
 enum class break_mode : std::uint8_t { tension, shear };

@@ -64,15 +64,59 @@ template <class Engine> double mean_stress_in_sphere(const Engine& e, const vec3
 
 /// How far from rest, how connected, how deep.
 struct contact_state {
-    double unbalanced_ratio = 0.0;   ///< max |F_unbalanced| over bodies / mean over bodies of sum |F_contact|
-    double mean_contact_force = 0.0; ///< N, over touching contacts, facets included
-    double coordination = 0.0;       ///< touching neighbours per body
-    double max_overlap_over_r = 0.0; ///< of the smaller pebble
-    double mean_overlap = 0.0;       ///< of touching pebbles (m)
-    std::int64_t contacts = 0;       ///< touching pebble pairs
-    std::int32_t deepest_i = -1;     ///< pebbles of the deepest overlap
-    std::int32_t deepest_j = -1;     ///< -1: a facet
+    double unbalanced_ratio = 0.0;      ///< max |F_unbalanced| over bodies / mean over bodies of sum |F_contact|
+    double mean_contact_force = 0.0;    ///< N, over touching contacts, facets included
+    double coordination = 0.0;          ///< touching neighbours per body
+    double max_overlap_over_r = 0.0;    ///< largest, over the radius of the smaller pebble; platens and wall included
+    double median_overlap_over_r = 0.0; ///< of the same
+    double mean_overlap = 0.0;          ///< of touching pebbles (m)
+    std::int64_t contacts = 0;          ///< touching pebble pairs
+    double passing = 0.0;        ///< largest overlap over `passing_overlap`: two pebbles pass each other from 1 on
+    std::int32_t passing_i = -1; ///< its pebbles
+    std::int32_t passing_j = -1; ///< or at_platen, at_wall
+
+    static constexpr std::int32_t at_platen = -1; ///< second partner of a contact that is no pebble
+    static constexpr std::int32_t at_wall = -2;   ///< likewise: the lateral wall
 };
+
+/// Overlap (m) from which on a pebble counts as one that passes through what it touches, whatever that is: its radius,
+/// and not less than half of the largest radius in its grain. A pebble that is smaller is a detail of its grain's
+/// surface: once it is pressed in, the large one behind it takes the load, and how deep it has gone says nothing.
+template <class Engine> double passing_overlap(const Engine& e, std::int32_t pebble) {
+    const auto& s = e.grains;
+    const auto own = s.pebbles_of(s.group_of(pebble));
+    double largest = 0.0;
+    for (std::size_t p = own.begin; p < own.end; ++p) largest = std::max(largest, s.pebbles[p].radius);
+    return std::max(s.pebbles[static_cast<std::size_t>(pebble)].radius, 0.5 * largest);
+}
+/// The same for two pebbles: the larger of both. A small pebble may be inside a large one, whose centre it is far from
+/// all the same: with this overlap centres are as far apart as the smaller radius, if both are large in their grains.
+template <class Engine> double passing_overlap(const Engine& e, std::int32_t i, std::int32_t j) {
+    return std::max(passing_overlap(e, i), passing_overlap(e, j));
+}
+
+namespace detail {
+/// Collects the overlaps of touching contacts.
+struct overlap_survey {
+    std::vector<double> ratios;
+
+    /// One overlap (m), over the radius (m) of the smaller pebble; `j` may be no pebble.
+    template <class Engine>
+    void add(const Engine& e, contact_state& c, double depth, double radius, std::int32_t i, std::int32_t j) {
+        ratios.push_back(depth / radius);
+        c.max_overlap_over_r = std::max(c.max_overlap_over_r, ratios.back());
+        if (!(depth > c.passing * radius)) return; // the limit is a radius at least
+        const double part = depth / (j >= 0 ? passing_overlap(e, i, j) : passing_overlap(e, i));
+        if (part > c.passing) c.passing = part, c.passing_i = i, c.passing_j = j;
+    }
+    double median() {
+        if (ratios.empty()) return 0.0;
+        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+        std::nth_element(ratios.begin(), middle, ratios.end());
+        return *middle;
+    }
+};
+} // namespace detail
 
 /// Bodies here are clumps and fragments (bonded balls count as one).
 template <class Engine> contact_state contacts_of(const Engine& e) {
@@ -84,6 +128,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
     std::vector<double> sum(pieces, 0.0);
     std::vector<std::pair<std::size_t, std::size_t>> neighbours;
     contact_state c;
+    detail::overlap_survey overlaps;
     double forces = 0.0;
     std::int64_t count = 0;
     e.each_contact([&](const auto& row, const auto& pair) {
@@ -95,8 +140,8 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         forces += size, ++count, ++c.contacts;
         c.mean_overlap += row.depth;
         if (a != b) neighbours.emplace_back(std::min(a, b), std::max(a, b));
-        const double over = row.depth / std::min(s.pebbles[at(pair.i)].radius, s.pebbles[at(pair.j)].radius);
-        if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = pair.i, c.deepest_j = pair.j;
+        const double radius = std::min(s.pebbles[at(pair.i)].radius, s.pebbles[at(pair.j)].radius);
+        overlaps.add(e, c, row.depth, radius, pair.i, pair.j);
     });
     e.each_wall_row([&](const auto& w) {
         if (w.touch.size == 0) return;
@@ -104,8 +149,10 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
         const double size = norm(w.force);
         net[a] += w.force, sum[a] += size;
         forces += size, ++count;
-        const double over = norm(boundaries::lateral_push(w.touch)) / s.pebbles[at(w.pebble)].radius;
-        if (over > c.max_overlap_over_r) c.max_overlap_over_r = over, c.deepest_i = w.pebble, c.deepest_j = -1;
+        const double radius = s.pebbles[at(w.pebble)].radius, way = norm(boundaries::lateral_push(w.touch));
+        if (way > 0.0) overlaps.add(e, c, way, radius, w.pebble, contact_state::at_wall);
+        for (const boundaries::touch& t : w.touch)
+            if (t.at_platen()) overlaps.add(e, c, t.depth, radius, w.pebble, contact_state::at_platen);
     });
     e.each_outer_force([&](std::size_t b, const vec3& force) { net[b] += force; });
     double largest = 0.0, total = 0.0;
@@ -122,6 +169,7 @@ template <class Engine> contact_state contacts_of(const Engine& e) {
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     c.unbalanced_ratio = total > 0.0 ? largest / (total / static_cast<double>(bodies)) : 0.0;
     if (c.contacts > 0) c.mean_overlap /= static_cast<double>(c.contacts);
+    c.median_overlap_over_r = overlaps.median();
     c.mean_contact_force = count > 0 ? forces / static_cast<double>(count) : 0.0;
     c.coordination = bodies > 0 ? 2.0 * static_cast<double>(neighbours.size()) / static_cast<double>(bodies) : 0.0;
     return c;

@@ -77,7 +77,7 @@ template <class P> class runner {
             if (stage_steps_ % plan.look_every != 0) continue;
             clock();
             look();
-            protocol::check_specimen(sim, deepest_, current().name, [this] { return when(); });
+            protocol::check_specimen(sim, contacts_, current().name, [this] { return when(); });
             const bool ended = current().end.met(view_);
             const double part = current().end.progress(view_);
             watch.on_progress(measure(), part,
@@ -125,6 +125,7 @@ template <class P> class runner {
                       : 0.0;
         const measure::contact_state c = measure::contacts_of(sim);
         s.unbalanced_ratio = c.unbalanced_ratio;
+        s.median_overlap_over_r = c.median_overlap_over_r;
         s.max_overlap_over_r = c.max_overlap_over_r;
         s.coordination = c.coordination;
         s.confining_error = error_count_ > 0 ? error_sum_ / static_cast<double>(error_count_) : 0.0;
@@ -263,7 +264,7 @@ template <class P> class runner {
         const measure::contact_state c = measure::contacts_of(sim);
         view_.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
         view_.mean_contact_force = c.mean_contact_force;
-        deepest_ = c;
+        contacts_ = c;
         const double kinetic = sim.kinetic_energy(), elastic = sim.elastic_energy();
         view_.kinetic_ratio = elastic > 0.0 ? kinetic / elastic : 1.0;
         const double r = 0.7 * radius(), h = b.height();
@@ -387,7 +388,7 @@ template <class P> class runner {
     double smoothed_p_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;
     stage_view view_;
-    measure::contact_state deepest_;
+    measure::contact_state contacts_;
 };
 
 /// For a bundle that does not fit (triaxial_policies): an error that says what is missing, and nothing after it.
