@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 #include <vector>
 
+#include <clast/boundaries/box.hpp>
 #include <clast/criteria/octahedral.hpp>
 #include <clast/engine/engine.hpp>
 
@@ -123,4 +125,96 @@ TEST_CASE("the largest contact of two grains is that of their pebbles, r1 r2 / (
         CHECK(!load.contact_at_wall);
         CHECK(load.coordination == 1);
     }
+}
+
+namespace {
+/// Breaks the grain with the number 0, and asks for all there is.
+struct first_alone : curious {
+    double utilisation(const criteria::grain_load& load) const { return load.grain == 0 ? 2.0 : 0.0; }
+};
+template <class Boundary> struct by_all_in : by_all { using boundary = Boundary; };
+struct first_breaks : scenes::breakable<> {
+    using breakage = first_alone;
+};
+template <class P> engine_settings<P> settings_of() {
+    return {.grain_contact = contacts::linear::between(scenes::pebble, scenes::pebble),
+            .platen_contact = contacts::linear::between(scenes::pebble, scenes::platen),
+            .lateral_contact = contacts::linear::between(scenes::pebble, scenes::membrane),
+            .breakage = {},
+            .replacement = {.bond = {}, .check_interval = 1}};
+}
+} // namespace
+
+TEST_CASE("the lateral wall is one neighbour, whose force is the resultant of its facets") {
+    // a sphere of 10 mm in the corner of two tiles of an octagon around 5 cm, 0.2 mm behind either plane
+    const double r = 0.01, deep = 2e-4, half = std::numbers::pi / 8.0;
+    bodies::clumps rock = scenes::empty(shapes::sphere(2.0 * r));
+    const double out = (0.05 + deep - r) / std::cos(half);
+    rock.add(0, {out * std::cos(half), out * std::sin(half), 0}, {});
+    engine<by_all> e(settings_of<by_all>(), std::move(rock), boundaries::solid_strips(scenes::cylinder(0.05, 0.1)));
+    e.step();
+    std::vector<vec3> forces;
+    const criteria::grain_load load = rooms::load_of(e.state(), 0, forces);
+    // the way out is along the bisector, deep / cos(half) long; single tiles would push by 0.54 of the force
+    const double force = contacts::linear::between(scenes::pebble, scenes::membrane).kn * deep / std::cos(half);
+    CHECK(load.coordination == 1);
+    CHECK(load.largest_force == Approx(force).epsilon(1e-9));
+    REQUIRE(load.neighbour_forces.size() == 1);
+    CHECK(load.neighbour_forces[0].x == Approx(-force * std::cos(half)).epsilon(1e-9));
+    CHECK(load.neighbour_forces[0].y == Approx(-force * std::sin(half)).epsilon(1e-9));
+}
+
+TEST_CASE("walls of a box are neighbours of their own: opposite ones crush a grain") {
+    using policies = by_all_in<boundaries::box>;
+    const double r = 0.01, deep = 2e-4;
+    bodies::clumps rock = scenes::empty(make_shape("two", {{{-r, 0, 0}, r}, {{r, 0, 0}, r}}));
+    rock.add(0, {}, {});
+    const double kn = settings_of<policies>().lateral_contact.kn, l = 2.0 * r - deep;
+    engine<policies> e(settings_of<policies>(), std::move(rock),
+                       boundaries::box({{-l, -0.1, -0.1}, {l, 0.1, 0.1}, 3.2e8, kn}));
+    e.step();
+    std::vector<vec3> forces;
+    const criteria::grain_load load = rooms::load_of(e.state(), 0, forces);
+    CHECK(load.coordination == 2);
+    CHECK(load.largest_force == Approx(kn * deep).epsilon(1e-9));
+}
+
+TEST_CASE("a neighbour that has been replaced is one as long as its bonds hold") {
+    // a tetrahedron on one tip, a sphere in the hollow of its three upper pebbles, squeezed by platens; then the
+    // tetrahedron becomes a bonded cluster
+    const shape four = shapes::tetrahedron_4(0.02);
+    bodies::clumps rock = scenes::empty(four);
+    rock.shapes.push_back(shapes::sphere(0.02));
+    rock.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, -1}));
+    double top = 0.0, off = 0.0;
+    const double pebble = four.pebbles[0].radius;
+    for (const auto& p : rock.pebbles)
+        if (p.x.z > top) top = p.x.z, off = std::hypot(p.x.x, p.x.y);
+    const double reach = 0.01 + pebble;
+    rock.add(1, {0, 0, top + std::sqrt(reach * reach - off * off)}, {});
+    boundaries::cylinder_settings c = scenes::cylinder_around(rock);
+    engine<first_breaks> e(settings_of<first_breaks>(), std::move(rock), boundaries::solid_strips(c));
+    e.breakage_on = false;
+    e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 2e-3};
+    while (scenes::load(e) < 300.0) e.step();
+    e.drives.platens.how = boundaries::drive::mode::hold;
+    e.step(300); // soon: on its tip it would topple
+    e.breakage_on = true;
+    while (e.totals().replaced == 0) e.step();
+    e.step(300); // soon: on its tip it would topple
+    REQUIRE(e.totals().replaced == 1);
+    REQUIRE(e.totals().broken_tension + e.totals().broken_shear == 0);
+    int balls = 0; // three of them touch the sphere
+    e.each_contact([&](const auto& row, const auto& pair) {
+        balls += row.depth > 0.0 && (e.grains.body_of(pair.i) == 1 || e.grains.body_of(pair.j) == 1);
+    });
+    CHECK(balls == 3);
+    std::vector<vec3> forces;
+    const criteria::grain_load load = rooms::load_of(e.state(), 1, forces);
+    const double force = scenes::load(e); // of the platen above, and by statics of the cluster below
+    CHECK(force > 250.0);
+    CHECK(load.coordination == 2);
+    REQUIRE(load.neighbour_forces.size() == 2);
+    for (const vec3& f : load.neighbour_forces) CHECK(std::abs(f.z) == Approx(force).epsilon(1e-3));
+    CHECK(load.largest_force == Approx(force).epsilon(1e-3));
 }

@@ -84,6 +84,8 @@ class box {
     bool holds(const vec3& x, double r) const { return !near(x, r); }
     int facet_count() const { return 6; }
     double stiffness(int) const { return set_.wall_stiffness; }
+    /// Each wall is a neighbour of its own: opposite ones together would crush a grain without a resultant.
+    static std::int32_t part_of(std::int32_t facet) { return facet; }
     double velocity(int facet) const { return speed_[axis_of(facet)]; }
     double area(int facet) const {
         const auto a = static_cast<int>(axis_of(facet));

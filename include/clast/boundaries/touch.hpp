@@ -159,6 +159,15 @@ vec3 velocity_of(const B& surface, const touch& t, [[maybe_unused]] const vec3& 
         return (t.along * surface.velocity(t.facet)) * t.normal;
 }
 
+/// The part of a surface that a facet belongs to, as one neighbour of a grain: the number of the platen, or that of the
+/// first lateral facet for the whole lateral wall, unless the surface has parts of its own (`part_of(facet)`).
+template <class B> std::int32_t part_of(const B& surface, std::int32_t facet) {
+    if constexpr (requires { surface.part_of(facet); })
+        return surface.part_of(facet);
+    else
+        return facet < first_lateral_facet ? facet : first_lateral_facet;
+}
+
 /// What a law remembers of a pebble at a boundary that rubs, and what that does to the pebble in this step.
 template <class History> struct grip {
     struct hold {

@@ -39,8 +39,9 @@ inline constexpr needs everything = needs::largest_force | needs::largest_contac
 struct grain_load {
     double diameter = 0.0; ///< of the circumscribed sphere, d (m), positive
     double volume = 0.0;   ///< of the pebbles (m^3), positive
-    /// Largest force by one neighbour (N): the resultant of its contacts, because the crushing test measures the
-    /// platen's force, which is a resultant too; or the largest single contact, if the engine is told so.
+    /// Largest force by one neighbour (N), a clump, a fragment (balls that bonds join), a platen or the lateral wall:
+    /// the resultant of its contacts, because the crushing test measures the platen's force, which is a resultant too;
+    /// or the largest single contact, if the engine is told so.
     double largest_force = 0.0;
     /// Mean stress (Pa, compression positive): -(1/V) sum f (x) l, f the force on the grain at the arm l from its mass
     /// centre, V the pebble volume. Symmetric only if the moments balance: criteria use the symmetric part.
@@ -53,7 +54,7 @@ struct grain_load {
     bool contact_at_wall = false; ///< whether that contact is one with a platen or the lateral wall
     double strength_factor = 1.0; ///< strength of this grain over that of its size (scatter), positive
     std::int64_t grain = -1;      ///< id of the grain
-    std::size_t coordination = 0; ///< number of bodies and facets that touch it
+    std::size_t coordination = 0; ///< number of neighbours: clumps, fragments, platens, lateral wall
     /// What each of these exerts on the grain (N), in the order of its contacts. Valid during the call of
     /// `utilisation`.
     std::span<const vec3> neighbour_forces;

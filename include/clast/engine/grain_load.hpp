@@ -23,7 +23,7 @@ inline constexpr bool fills_all_needs<C> = criteria::contains(criteria::everythi
 /// What one row exerts on a clump.
 struct acting_force {
     std::int32_t pebble;    ///< of the clump
-    std::int32_t neighbour; ///< body id, or -1 - facet
+    std::int32_t neighbour; ///< what the other pebble is a part of, a clump or a fragment; -1 - part of the surface
     vec3 force;             ///< N
     vec3 point;             ///< m
     double radius;          ///< r1 r2 / (r1 + r2) of the two pebbles, at a facet that of the pebble (m)
@@ -41,17 +41,19 @@ void each_row_of(const S& s, std::size_t g, const incidence& of, const contact_l
             const double side = one.side();
             const pebble_pair& pair = list.pairs[one.row()];
             const std::int32_t other = one.is_second() ? pair.i : pair.j;
-            f(acting_force{one.pebble, s.grains.owner[s.at(other)], side * row.force,
+            f(acting_force{one.pebble, static_cast<std::int32_t>(s.broken.piece_of(s.grains, other)), side * row.force,
                            s.position(one.pebble) + (side * (r - 0.5 * row.depth)) * row.normal,
                            r * s.radius(other) / (r + s.radius(other))});
         } else {
             const boundaries::wall_row& w = wall[one.row() - list.size()];
             const vec3 x = s.position(w.pebble);
+            const auto wall_of = [&s](const boundaries::touch& t) {
+                return -1 - boundaries::part_of(s.boundary, t.facet);
+            };
             for (const boundaries::touch& t : w.touch)
-                f(acting_force{w.pebble, -1 - t.facet, w.share(t) * t.normal, x - r * t.normal, r});
+                f(acting_force{w.pebble, wall_of(t), w.share(t) * t.normal, x - r * t.normal, r});
             if (norm2(w.friction) > 0.0)
-                f(acting_force{w.pebble, -1 - w.touch.begin()->facet, w.friction, x - r * unit(w.force - w.friction),
-                               r});
+                f(acting_force{w.pebble, wall_of(*w.touch.begin()), w.friction, x - r * unit(w.force - w.friction), r});
         }
     }
 }
@@ -63,12 +65,14 @@ template <class S, class F> void each_row_of(const S& s, std::size_t g, F&& f) {
 
 /// What a clump feels of one neighbour.
 struct neighbour_load {
-    std::int32_t id = 0;  ///< body, or -1 - facet
+    std::int32_t id = 0;  ///< acting_force::neighbour
     vec3 force;           ///< resultant of its contacts (N)
     double largest = 0.0; ///< square of the largest of them (N^2)
     double radius = 0.0;  ///< of that (acting_force::radius)
 };
-/// All that touch a clump, in the order of its rows. f(acting_force) is called for each of these, too.
+/// All that touch a clump, in the order of its rows: clumps, fragments of what has been replaced (balls that bonds join
+/// push as one), each platen, and the lateral wall, whatever number of its facets. f(acting_force) is called for each
+/// of these, too.
 template <class S, class F> std::vector<neighbour_load> neighbours_of(const S& s, std::size_t g, F&& f) {
     std::vector<neighbour_load> around; // few, but a clump among fragments may have many
     around.reserve(32);

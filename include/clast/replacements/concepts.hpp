@@ -50,7 +50,7 @@ template <class State> struct view_archetype {
     std::int64_t id() const;                              ///< its number for life, by which strength scatters
     double utilisation() const;                           ///< of the criterion, >= 0; the grain breaks at 1
     std::vector<bonds::pebble_load> pebble_loads() const; ///< per pebble: force (N), moment about its centre (N m)
-    std::size_t neighbours() const;                       ///< bodies and facets that touch it
+    std::size_t neighbours() const;                       ///< clumps, fragments, platens, wall that touch it
     const clast::shape& shape() const;
     bonds::likeness like() const;          ///< its size over that of its shape, its density over the specimen's
     const bonds::lattice& lattice() const; ///< the bonds of its shape, at ratios of 1; only where `makes_bonds`
