@@ -117,6 +117,36 @@ TEST_CASE("a stage for the unrelaxed is left out where the one before has ended 
     CHECK(short_one.begun == names{"rest"});
 }
 
+TEST_CASE("extension goes to the strain that it is asked for, and a drive to the other side is refused") {
+    stage extend{.name = "extend",
+                 .axial = drive_by::inertial_number(-5e-3),
+                 .lateral = drive_by::stress(200_kPa),
+                 .end = until::axial_strain(-2_percent),
+                 .reference_here = true};
+    stage back = extend;
+    back.name = "back", back.axial.value *= -1.0, back.end = until::axial_strain(-1_percent);
+    back.reference_here = false;
+    test_type test(setup(), {compact(), consolidate(), extend, back});
+    recorder watch;
+    REQUIRE(test.run(watch));
+    double least = 0.0;
+    for (const sample& s : watch.rows) least = s.stage == "extend" ? std::min(least, s.axial_strain) : least;
+    CHECK(least == Approx(-0.02).epsilon(0.05));
+    CHECK(watch.rows.back().axial_strain == Approx(-0.01).epsilon(0.2)); // looked at every 100 steps
+
+    extend.axial.value *= -1.0;
+    test_type wrong(setup(), {compact(), consolidate(), extend});
+    std::string said;
+    try {
+        wrong.run(watch);
+    } catch (const input_error& e) {
+        said = e.what();
+    }
+    INFO(said);
+    CHECK(said.find("stage 'extend'") != std::string::npos);
+    CHECK(said.find("axial strain -2 % from 0 % on, with platens that shorten it") != std::string::npos);
+}
+
 TEST_CASE("the energy of a test under gravity closes in the column of its residual") {
     struct heavy : rigid {
         using field = fields::gravity;

@@ -43,6 +43,31 @@ TEST_CASE("conditions are met at their limits and not before, and say so in word
     CHECK(until::steps(100).met(v));
 }
 
+TEST_CASE("a strain is reached from the side on which the stage began") {
+    stage_view v;
+    const condition extended = until::axial_strain(-2_percent);
+    CHECK_FALSE(extended.met(v));
+    CHECK(extended.progress(v) == 0.0);
+    v.axial_strain = -0.0199;
+    CHECK_FALSE(extended.met(v));
+    CHECK(extended.progress(v) == Approx(0.995));
+    v.axial_strain = -0.0201;
+    CHECK(extended.met(v));
+    // back from 3 % to 1 %
+    v.strain_at_start = v.axial_strain = 0.03;
+    const condition back = until::axial_strain(1_percent);
+    CHECK_FALSE(back.met(v));
+    v.axial_strain = 0.02;
+    CHECK_FALSE(back.met(v));
+    CHECK(back.progress(v) == Approx(0.5));
+    v.axial_strain = 0.01;
+    CHECK(back.met(v));
+    // what both need is needed, what one needs is not
+    CHECK(*(back && until::steps(5)).needed_strain == 0.01);
+    CHECK(*(until::steps(5) && back).needed_strain == 0.01);
+    CHECK_FALSE((back || until::steps(5)).needed_strain);
+}
+
 TEST_CASE("limits in parts of the setup follow its stress and its grains") {
     stage_view v;
     v.steps = 5000;

@@ -198,6 +198,7 @@ template <class P> class runner {
         stage_residual_ = unexplained(now);
         smoothed_p_ = std::max(now.p, 0.01 * plan.confining);
         row_start_ = axial_strain();
+        protocol::check_direction(s, row_start_);
         next_row_ = 1;
         view_ = {};
         look();
@@ -256,6 +257,7 @@ template <class P> class runner {
         view_.p = sigma_3 + view_.q / 3.0;
         const double sigma_1 = sigma_3 + view_.q;
         view_.axial_strain = axial_strain();
+        view_.strain_at_start = row_start_;
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
         view_.steps = stage_steps_;
         view_.time = stage_time_;
@@ -383,7 +385,7 @@ template <class P> class runner {
     double error_sum_ = 0.0;
     std::int64_t error_count_ = 0;
     std::int64_t next_row_ = 1;
-    double row_start_ = 0.0;
+    double row_start_ = 0.0; ///< axial strain at the start of the stage
     double wall_time_ = 0.0;
     double smoothed_p_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,7 @@ inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::r
 /// What a condition may look at; refreshed every few steps, never by the clock.
 struct stage_view {
     double axial_strain = 0.0;      ///< since the reference state
+    double strain_at_start = 0.0;   ///< the same at the start of the stage
     double volumetric_strain = 0.0; ///< compression positive
     double q = 0.0;                 ///< of the laboratory, boundaries/axial.hpp (Pa)
     double p = 0.0;                 ///< sigma_3 + q / 3 (Pa)
@@ -69,6 +71,8 @@ struct condition {
     std::string text;
     std::function<bool(const stage_view&)> met;
     std::function<double(const stage_view&)> progress;
+    /// Axial strain without which it is not met, if there is one: a stage that goes the other way is refused.
+    std::optional<double> needed_strain{};
 };
 
 namespace detail {
@@ -80,7 +84,10 @@ inline condition join(condition a, condition b, bool both) {
             },
             [a = std::move(a.progress), b = std::move(b.progress), both](const stage_view& v) {
                 return both ? std::min(a(v), b(v)) : std::max(a(v), b(v));
-            }};
+            },
+            !both             ? std::nullopt
+            : a.needed_strain ? a.needed_strain
+                              : b.needed_strain};
 }
 } // namespace detail
 
@@ -97,11 +104,19 @@ inline double falling(double now, double limit) {
     return now <= limit ? 1.0 : std::clamp(1.0 + std::log10(limit / now) / 4.0, 0.0, 0.99);
 }
 } // namespace detail
+/// The axial strain has reached a value, from the side on which the stage began: shortening positive, so a specimen
+/// that is extended comes to a negative one, or back to a smaller one, from above.
 inline condition axial_strain(quantities::ratio ratio) {
     const double strain = ratio.si();
     return {fmt::format("axial strain {:g} %", 100.0 * strain),
-            [strain](const stage_view& v) { return v.axial_strain >= strain; },
-            [strain](const stage_view& v) { return std::clamp(v.axial_strain / strain, 0.0, 1.0); }};
+            [strain](const stage_view& v) {
+                return strain >= v.strain_at_start ? v.axial_strain >= strain : v.axial_strain <= strain;
+            },
+            [strain](const stage_view& v) {
+                const double way = strain - v.strain_at_start;
+                return way != 0.0 ? std::clamp((v.axial_strain - v.strain_at_start) / way, 0.0, 1.0) : 1.0;
+            },
+            strain};
 }
 /// q falls to the given value or below, as in unloading.
 inline condition deviator_below(quantities::stress q) {

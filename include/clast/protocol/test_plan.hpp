@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include <clast/core/errors.hpp>
 #include <clast/protocol/stage.hpp>
 
@@ -37,6 +39,19 @@ inline void take_from_setup(axis_drive& a, const test_plan& plan, double size) {
                : a.how == kind::inertial ? plan.inertial_number
                                          : 1.0;
     a.of_setup = false;
+}
+/// Throws input_error where a stage waits for an axial strain and its platens go the other way. start: strain that it
+/// begins with.
+inline void check_direction(const stage& s, double start) {
+    using kind = axis_drive::kind;
+    if (!s.end.needed_strain || (s.axial.how != kind::rate && s.axial.how != kind::inertial)) return;
+    const double way = *s.end.needed_strain - start;
+    if (way * s.axial.value >= 0.0) return;
+    throw input_error(fmt::format("stage '{}'", s.name),
+                      fmt::format("{} from {:g} % on, with platens that {} it", s.end.text, 100.0 * start,
+                                  s.axial.value > 0.0 ? "shorten" : "lengthen"),
+                      "a drive towards that strain (shortening is positive)",
+                      "Change the sign of the rate, or of the strain.");
 }
 /// The plan with drives in SI units alone. Throws input_error where it has no stage.
 inline test_plan completed(test_plan plan) {
