@@ -147,6 +147,28 @@ TEST_CASE("extension goes to the strain that it is asked for, and a drive to the
     CHECK(said.find("axial strain -2 % from 0 % on, with platens that shorten it") != std::string::npos);
 }
 
+TEST_CASE("a stress target of zero has errors, and a stage that goes there ends") {
+    const stage release{.name = "release",
+                        .axial = drive_by::stress(0_Pa),
+                        .lateral = drive_by::stress(0_Pa),
+                        .end = until::stresses_within(0.05),
+                        .most_steps = 100'000};
+    test_type test(setup(), {compact(), consolidate(), release, rest(100)});
+    recorder watch;
+    REQUIRE(test.run(watch));
+    CHECK(watch.begun.back() == "rest");
+    double first = -1.0, last = -1.0;
+    for (const sample& s : watch.rows) {
+        CHECK(std::isfinite(s.confining_error));
+        if (s.stage != "release") continue;
+        if (first < 0.0 && s.confining_error > 0.0) first = s.confining_error; // the mean since the row before
+        last = s.confining_error;
+        if (&s == &watch.rows.back() || (&s + 1)->stage != "release") CHECK(s.sigma_3 < 0.05 * 5e-4 * 2e5);
+    }
+    CHECK(first > 0.0);
+    CHECK(last >= 0.0);
+}
+
 TEST_CASE("the energy of a test under gravity closes in the column of its residual") {
     struct heavy : rigid {
         using field = fields::gravity;

@@ -31,7 +31,7 @@ struct sample {
     double phi_mob_deg = 0.0;           ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
     double inertial_number = 0.0;       ///< paper Eq. 2
     double unbalanced_ratio = 0.0;      ///< max |F_unbalanced| / mean sum |F_contact|
-    double confining_error = 0.0;       ///< |sum F - sigma_3 sum A| / (sigma_3 sum A), mean since the last sample
+    double confining_error = 0.0;       ///< |sum F - target sum A| / (target sum A), mean since the last sample
     double median_overlap_over_r = 0.0; ///< overlap over the smaller radius, of touching contacts, walls included
     double max_overlap_over_r = 0.0;    ///< the largest of them
     double kappa = 0.0;                 ///< k_n / (p d)

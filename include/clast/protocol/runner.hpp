@@ -275,10 +275,10 @@ template <class P> class runner {
             view_.sphere_stress = std::max(
                 view_.sphere_stress,
                 std::abs(measure::mean_stress_in_sphere(sim, {0, 0, b.bottom() + z * h}, std::min(r, h / 6.0))));
-        view_.axial_error =
-            s.axial.how == axis_drive::kind::stress ? std::abs(sigma_1 - s.axial.value) / s.axial.value : 0.0;
-        view_.confining_error =
-            s.lateral.how == axis_drive::kind::stress ? b.confining_error(sim.loads(), s.lateral.value) : 0.0;
+        view_.axial_error = s.axial.how == axis_drive::kind::stress
+                                ? std::abs(sigma_1 - s.axial.value) / std::max(s.axial.value, least_stress())
+                                : 0.0;
+        view_.confining_error = confining_error(s);
         view_.travel_left = 0.0;
         if (s.axial.how == axis_drive::kind::reach)
             view_.travel_left = std::max(view_.travel_left, left(h, start_size_[0], s.axial.value));
@@ -336,10 +336,18 @@ template <class P> class runner {
         sim.drives.lateral = one(s.lateral, radius(), 1.0, start_size_[1]);
     }
 
+    double least_stress() const { return plan.least_stress * plan.confining; }
+    /// Of the lateral stress in this stage, relative; 0 where it is not controlled.
+    double confining_error(const stage& s) const {
+        if (s.lateral.how != axis_drive::kind::stress) return 0.0;
+        const double target = s.lateral.value, least = least_stress();
+        return target < least ? std::abs(sim.boundary.lateral_stress(sim.loads()) - target) / least
+                              : sim.boundary.confining_error(sim.loads(), target);
+    }
     void confining_now() {
         const stage& s = current();
         if (s.lateral.how != axis_drive::kind::stress) return;
-        error_sum_ += sim.boundary.confining_error(sim.loads(), s.lateral.value);
+        error_sum_ += confining_error(s);
         ++error_count_;
     }
 

@@ -54,13 +54,13 @@ struct stage_view {
     double sphere_stress = 0.0;      ///< largest |p'| in the three measurement spheres (Pa)
     double mean_contact_force = 0.0; ///< N
     double kinetic_ratio = 0.0;      ///< kinetic energy over elastic energy (1 where nothing is stored)
-    double axial_error = 0.0;        ///< |sigma_1 - target| / target under axial stress control
-    double confining_error = 0.0;    ///< |sigma_3 - target| / target under lateral stress control
-    double travel_left = 0.0;        ///< share of the way that `reach` axes still have to go, 1 to 0
-    std::int64_t steps = 0;          ///< in this stage
-    double time = 0.0;               ///< in this stage (s)
-    double confining = 0.0;          ///< what the setup says (Pa)
-    double grain_diameter = 0.0;     ///< likewise (m)
+    double axial_error = 0.0; ///< |sigma_1 - target| / target (test_plan::least_stress at least) under stress control
+    double confining_error = 0.0; ///< the same of sigma_3 under lateral stress control
+    double travel_left = 0.0;     ///< share of the way that `reach` axes still have to go, 1 to 0
+    std::int64_t steps = 0;       ///< in this stage
+    double time = 0.0;            ///< in this stage (s)
+    double confining = 0.0;       ///< what the setup says (Pa)
+    double grain_diameter = 0.0;  ///< likewise (m)
 
     /// Force of the setup: its confining stress on the square of a grain's diameter (N).
     double grain_force() const { return confining * grain_diameter * grain_diameter; }

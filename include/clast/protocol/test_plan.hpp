@@ -15,10 +15,13 @@ namespace clast {
 /// Sizes and rates of a test. SI units.
 struct test_plan {
     std::vector<stage> stages;
-    double radius = 0.0;                   ///< target apothem of the specimen (m)
-    double height = 0.0;                   ///< target height (m)
-    double grain_diameter = 0.02;          ///< d50 of Eq. 2 (m)
-    double confining = 2e6;                ///< scale of stresses: target of the consolidation (Pa)
+    double radius = 0.0;          ///< target apothem of the specimen (m)
+    double height = 0.0;          ///< target height (m)
+    double grain_diameter = 0.02; ///< d50 of Eq. 2 (m)
+    double confining = 2e6;       ///< scale of stresses: target of the consolidation (Pa)
+    /// Errors of stress are relative to the target, or to this part of `confining` where the target is less, 0
+    /// included.
+    double least_stress = 5e-4;
     double inertial_number = 1e-4;         ///< largest during loading (paper: 1e-4)
     double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
     double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
