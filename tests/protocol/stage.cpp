@@ -111,6 +111,19 @@ TEST_CASE("conditions join by and, by or, and the progress follows") {
     CHECK_FALSE(both.met(v));
 }
 
+TEST_CASE("what a step can show is asked after every step, what only a look finds is not") {
+    for (const condition& c : {until::axial_strain(1_percent), until::deviator_below(1_kPa), until::steps(5)})
+        CHECK(c.every_step);
+    for (const condition& c :
+         {until::size_reached(), until::unbalanced_below(1e-3), until::spheres_below(1_kPa),
+          until::spheres_below_of_setup(1e-3), until::unloaded(1_N), until::unloaded_of_setup(1e-3),
+          until::stresses_within(1e-3), until::stresses_within(1e-3) && until::unbalanced_below(1e-3)})
+        CHECK_FALSE(c.every_step);
+    CHECK((until::steps(5) || until::unbalanced_below(1e-3)).every_step);
+    const condition own{"own", [](const stage_view& v) { return v.q > 0.0; }, [](const stage_view&) { return 0.0; }};
+    CHECK(own.every_step);
+}
+
 TEST_CASE("progress of a quantity that falls over decades grows with every decade") {
     stage_view v;
     const condition c = until::unbalanced_below(1e-3);

@@ -74,11 +74,12 @@ template <class P> class runner {
                 clock();
                 report(watch);
             }
-            if (stage_steps_ % plan.look_every != 0) continue;
+            const bool looks = stage_steps_ % plan.look_every == 0, met = !looks && met_between_looks();
+            if (!looks && !met) continue;
             clock();
             look();
             protocol::check_specimen(sim, contacts_, current().name, [this] { return when(); });
-            const bool ended = current().end.met(view_);
+            const bool ended = met || current().end.met(view_);
             const double part = current().end.progress(view_);
             watch.on_progress(measure(), part,
                               (static_cast<double>(stage_) + part) / static_cast<double>(plan.stages.size()));
@@ -149,7 +150,7 @@ template <class P> class runner {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
           friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_, error_count_,
-          next_row_, row_start_, wall_time_, smoothed_p_);
+          next_row_, row_start_, wall_time_, smoothed_p_, view_);
     }
 
   private:
@@ -205,7 +206,7 @@ template <class P> class runner {
     }
 
     void end_stage(observer& watch, bool by_itself) {
-        report(watch);
+        if (last_row_ != sim.totals().steps) report(watch); // else the row of this very step has just been there
         watch.on_stage(current().name, false);
         ended_by_itself_ = by_itself;
         begun_ = false;
@@ -248,19 +249,28 @@ template <class P> class runner {
 
     double radius() const { return sim.boundary.radius(); }
 
-    /// Refreshes the view that conditions see, and the drives that depend on it.
-    void look() {
+    bool met_between_looks() {
+        if (!current().end.every_step) return false;
+        glance();
+        return current().end.met(view_);
+    }
+    /// Refreshes what of the view costs next to nothing, beside a step.
+    void glance() {
         const auto& b = sim.boundary;
-        const stage& s = current();
-        const double sigma_3 = b.lateral_stress(sim.loads());
         view_.q = boundaries::deviator(b, sim.loads());
-        view_.p = sigma_3 + view_.q / 3.0;
-        const double sigma_1 = sigma_3 + view_.q;
+        view_.p = b.lateral_stress(sim.loads()) + view_.q / 3.0;
         view_.axial_strain = axial_strain();
-        view_.strain_at_start = row_start_;
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
         view_.steps = stage_steps_;
         view_.time = stage_time_;
+    }
+    /// Refreshes all of the view that conditions see, and the drives that depend on it.
+    void look() {
+        const auto& b = sim.boundary;
+        const stage& s = current();
+        glance();
+        const double sigma_1 = boundaries::axial_stress(b, sim.loads());
+        view_.strain_at_start = row_start_;
         view_.confining = plan.confining;
         view_.grain_diameter = plan.grain_diameter;
         const measure::contact_state c = measure::contacts_of(sim);
@@ -362,6 +372,7 @@ template <class P> class runner {
 
     void report(observer& watch) {
         flush_events(watch);
+        last_row_ = sim.totals().steps;
         const sample row = measure();
         watch.on_row(row);
         if (scene_watch_ != nullptr) {
@@ -392,8 +403,8 @@ template <class P> class runner {
     std::array<double, 2> start_size_{};
     double error_sum_ = 0.0;
     std::int64_t error_count_ = 0;
-    std::int64_t next_row_ = 1;
-    double row_start_ = 0.0; ///< axial strain at the start of the stage
+    std::int64_t next_row_ = 1, last_row_ = -1; ///< number of the next one in shear; step of the last one
+    double row_start_ = 0.0;                    ///< axial strain at the start of the stage
     double wall_time_ = 0.0;
     double smoothed_p_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;

@@ -43,7 +43,8 @@ inline axis_drive stress_of_setup(double part = 1.0) { return {axis_drive::kind:
 inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::reach, part, true}; }
 } // namespace drive_by
 
-/// What a condition may look at; refreshed every few steps, never by the clock.
+/// What a condition may look at. Strains, q, p, steps and time are those of now; what costs more to find is that of the
+/// last look (test_plan::look_every), never by the clock.
 struct stage_view {
     double axial_strain = 0.0;      ///< since the reference state
     double strain_at_start = 0.0;   ///< the same at the start of the stage
@@ -64,6 +65,11 @@ struct stage_view {
 
     /// Force of the setup: its confining stress on the square of a grain's diameter (N).
     double grain_force() const { return confining * grain_diameter * grain_diameter; }
+
+    template <class A> void archive(A& a) {
+        a(axial_strain, strain_at_start, volumetric_strain, q, p, unbalanced_ratio, sphere_stress, mean_contact_force,
+          kinetic_ratio, axial_error, confining_error, travel_left, steps, time, confining, grain_diameter);
+    }
 };
 
 /// When a stage ends, in words and as a function; `progress` in [0, 1] feeds the progress bar.
@@ -73,21 +79,25 @@ struct condition {
     std::function<double(const stage_view&)> progress;
     /// Axial strain without which it is not met, if there is one: a stage that goes the other way is refused.
     std::optional<double> needed_strain{};
+    /// Whether it is asked after every step: then a stage ends in the first step in which it is met. Off where it reads
+    /// only what a look finds.
+    bool every_step = true;
 };
 
 namespace detail {
 /// One text and one pair of functions for both operators: what they would capture apart costs time to compile.
 inline condition join(condition a, condition b, bool both) {
-    return {a.text + (both ? " and " : " or ") + b.text,
-            [a = std::move(a.met), b = std::move(b.met), both](const stage_view& v) {
-                return both ? a(v) && b(v) : a(v) || b(v);
-            },
-            [a = std::move(a.progress), b = std::move(b.progress), both](const stage_view& v) {
-                return both ? std::min(a(v), b(v)) : std::max(a(v), b(v));
-            },
-            !both             ? std::nullopt
-            : a.needed_strain ? a.needed_strain
-                              : b.needed_strain};
+    condition c;
+    c.text = a.text + (both ? " and " : " or ") + b.text;
+    if (both) c.needed_strain = a.needed_strain ? a.needed_strain : b.needed_strain;
+    c.every_step = a.every_step || b.every_step;
+    c.met = [a = std::move(a.met), b = std::move(b.met), both](const stage_view& v) {
+        return both ? a(v) && b(v) : a(v) || b(v);
+    };
+    c.progress = [a = std::move(a.progress), b = std::move(b.progress), both](const stage_view& v) {
+        return both ? std::min(a(v), b(v)) : std::max(a(v), b(v));
+    };
+    return c;
 }
 } // namespace detail
 
@@ -99,6 +109,11 @@ inline condition operator||(condition a, condition b) { return detail::join(std:
 /// Conditions in words of the field: `until::axial_strain(25 * percent)`.
 namespace until {
 namespace detail {
+/// One that only looks can decide.
+inline condition at_looks(condition c) {
+    c.every_step = false;
+    return c;
+}
 /// Progress of a quantity that falls over decades towards a limit.
 inline double falling(double now, double limit) {
     return now <= limit ? 1.0 : std::clamp(1.0 + std::log10(limit / now) / 4.0, 0.0, 0.99);
@@ -126,50 +141,53 @@ inline condition deviator_below(quantities::stress q) {
 }
 /// Both `reach` axes have arrived.
 inline condition size_reached() {
-    return {"target size", [](const stage_view& v) { return v.travel_left <= 0.0; },
-            [](const stage_view& v) { return 1.0 - v.travel_left; }};
+    return detail::at_looks({"target size", [](const stage_view& v) { return v.travel_left <= 0.0; },
+                             [](const stage_view& v) { return 1.0 - v.travel_left; }});
 }
 /// Largest unbalanced force over the mean sum of contact forces below the limit.
 inline condition unbalanced_below(double ratio) {
-    return {fmt::format("unbalanced ratio < {:g} %", 100.0 * ratio),
-            [ratio](const stage_view& v) { return v.unbalanced_ratio < ratio; },
-            [ratio](const stage_view& v) { return detail::falling(v.unbalanced_ratio, ratio); }};
+    return detail::at_looks({fmt::format("unbalanced ratio < {:g} %", 100.0 * ratio),
+                             [ratio](const stage_view& v) { return v.unbalanced_ratio < ratio; },
+                             [ratio](const stage_view& v) { return detail::falling(v.unbalanced_ratio, ratio); }});
 }
 /// Mean stress below the limit in all three measurement spheres (paper section 2.3: 1 kPa).
 inline condition spheres_below(quantities::stress p) {
     const double limit = p.si();
-    return {fmt::format("p' < {:g} kPa in three spheres", 1e-3 * limit),
-            [limit](const stage_view& v) { return v.sphere_stress < limit; },
-            [limit](const stage_view& v) { return detail::falling(v.sphere_stress, limit); }};
+    return detail::at_looks({fmt::format("p' < {:g} kPa in three spheres", 1e-3 * limit),
+                             [limit](const stage_view& v) { return v.sphere_stress < limit; },
+                             [limit](const stage_view& v) { return detail::falling(v.sphere_stress, limit); }});
 }
 /// The same in parts of the confining stress of the setup: the paper's 1 kPa is 5e-4 of its 2 MPa.
 inline condition spheres_below_of_setup(double part) {
-    return {fmt::format("p' < {:g} % of the confining stress in three spheres", 100.0 * part),
-            [part](const stage_view& v) { return v.sphere_stress < part * v.confining; },
-            [part](const stage_view& v) { return detail::falling(v.sphere_stress, part * v.confining); }};
+    return detail::at_looks(
+        {fmt::format("p' < {:g} % of the confining stress in three spheres", 100.0 * part),
+         [part](const stage_view& v) { return v.sphere_stress < part * v.confining; },
+         [part](const stage_view& v) { return detail::falling(v.sphere_stress, part * v.confining); }});
 }
 /// No load worth the name: mean contact force below `force`, after a thousand steps. The way out where the unbalanced
 /// ratio becomes 0/0 in an unjammed specimen.
 inline condition unloaded(quantities::force force) {
     const double limit = force.si();
-    return {fmt::format("mean contact force < {:g} N", limit),
-            [limit](const stage_view& v) { return v.mean_contact_force < limit && v.steps > 1000; },
-            [limit](const stage_view& v) { return detail::falling(v.mean_contact_force, limit); }};
+    return detail::at_looks({fmt::format("mean contact force < {:g} N", limit),
+                             [limit](const stage_view& v) { return v.mean_contact_force < limit && v.steps > 1000; },
+                             [limit](const stage_view& v) { return detail::falling(v.mean_contact_force, limit); }});
 }
 /// The same in parts of the force of the setup, its confining stress on the square of a grain's diameter: 800 N with
 /// 2 MPa and 20 mm.
 inline condition unloaded_of_setup(double part) {
-    return {fmt::format("mean contact force < {:g} % of sigma_3 d^2", 100.0 * part),
-            [part](const stage_view& v) { return v.mean_contact_force < part * v.grain_force() && v.steps > 1000; },
-            [part](const stage_view& v) { return detail::falling(v.mean_contact_force, part * v.grain_force()); }};
+    return detail::at_looks(
+        {fmt::format("mean contact force < {:g} % of sigma_3 d^2", 100.0 * part),
+         [part](const stage_view& v) { return v.mean_contact_force < part * v.grain_force() && v.steps > 1000; },
+         [part](const stage_view& v) { return detail::falling(v.mean_contact_force, part * v.grain_force()); }});
 }
 /// Servo-controlled stresses within the tolerance of their targets.
 inline condition stresses_within(double tolerance) {
-    return {fmt::format("stress error < {:g} %", 100.0 * tolerance),
-            [tolerance](const stage_view& v) { return v.axial_error < tolerance && v.confining_error < tolerance; },
-            [tolerance](const stage_view& v) {
-                return detail::falling(std::max(v.axial_error, v.confining_error), tolerance);
-            }};
+    return detail::at_looks(
+        {fmt::format("stress error < {:g} %", 100.0 * tolerance),
+         [tolerance](const stage_view& v) { return v.axial_error < tolerance && v.confining_error < tolerance; },
+         [tolerance](const stage_view& v) {
+             return detail::falling(std::max(v.axial_error, v.confining_error), tolerance);
+         }});
 }
 inline condition steps(std::int64_t n) {
     return {fmt::format("{} steps", n), [n](const stage_view& v) { return v.steps >= n; },
