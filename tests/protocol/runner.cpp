@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -175,6 +176,37 @@ TEST_CASE("cycles of loading turn round at the q that they are asked for, howeve
         watch.sheared = [&] { test.protocol().plan.look_every = look_every; };
         REQUIRE(test.run(watch));
     }
+}
+
+TEST_CASE("a test that stops on its peak does so where it was stored and resumed on the way, too") {
+    // on the way back, where q falls all the time from what the shear has left
+    stage back = protocol::unloading(200_kPa, 0_kPa, 1e-4);
+    back.end = until::peak_passed(50_percent) || until::axial_strain(-20_percent);
+    const std::vector<stage> stages{compact(), consolidate(), protocol::shear(200_kPa, 2_percent, 5e-3), back};
+    test_type whole(setup(), stages);
+    recorder watch;
+    REQUIRE(whole.run(watch));
+    const auto first =
+        std::find_if(watch.rows.begin(), watch.rows.end(), [](const auto& s) { return s.stage == "unload"; });
+    REQUIRE(first != watch.rows.end());
+    const sample& end = watch.rows.back();
+    CHECK(end.q == Approx(0.5 * first->q).epsilon(0.02));
+    REQUIRE(end.steps > first->steps + 200); // looks ago
+
+    struct stopper : recorder {
+        bool stop_requested() override { return true; }
+    } often;
+    auto parts = std::make_unique<test_type>(setup(), stages);
+    while (!parts->run(often)) {
+        if (parts->protocol().stage_name() != "unload") continue;
+        write_archive out;
+        out(*parts);
+        parts = std::make_unique<test_type>(setup(), stages);
+        read_archive in(out.buffer);
+        in(*parts);
+    }
+    CHECK(parts->sim().totals().steps == end.steps);
+    CHECK(checksum(parts->sim()) == checksum(whole.sim()));
 }
 
 TEST_CASE("a stress target of zero has errors, and a stage that goes there ends") {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <clast/protocol/stage.hpp>
 
+#include <vector>
+
 #include <catch.hpp>
 
 using namespace clast;
@@ -122,6 +124,42 @@ TEST_CASE("what a step can show is asked after every step, what only a look find
     CHECK((until::steps(5) || until::unbalanced_below(1e-3)).every_step);
     const condition own{"own", [](const stage_view& v) { return v.q > 0.0; }, [](const stage_view&) { return 0.0; }};
     CHECK(own.every_step);
+}
+
+TEST_CASE("a peak is past when q has dropped by a share of it, and conditions keep their numbers apart") {
+    std::vector<double> memory(1, 0.0);
+    stage_view v;
+    v.confining = 1e5, v.memory = memory;
+    const condition c = until::peak_passed(10_percent);
+    CHECK(c.memory == 1);
+    CHECK(c.text == "q 10 % below its peak");
+    const auto at = [&](const condition& one, double q) {
+        v.q = q;
+        return one.met(v);
+    };
+    CHECK_FALSE(at(c, 9e3)); // less than a tenth of the confining stress is no peak
+    CHECK_FALSE(at(c, 5e3));
+    CHECK_FALSE(at(c, 50e3));
+    CHECK_FALSE(at(c, 100e3));
+    CHECK_FALSE(at(c, 91e3));
+    CHECK(c.progress(v) == Approx(0.9));
+    CHECK(at(c, 90e3));
+    CHECK(memory[0] == 100e3);
+    // two of them in one: each counts by itself, and is asked though the other decides
+    const condition two = (until::steps(5) || until::peak_passed(10_percent)) && until::peak_passed(20_percent);
+    CHECK(two.memory == 2);
+    memory.assign(2, 0.0), v.memory = memory;
+    CHECK_FALSE(at(two, 100e3));
+    CHECK((memory[0] == 100e3 && memory[1] == 100e3));
+    CHECK_FALSE(at(two, 85e3));
+    CHECK(at(two, 80e3));
+    v.steps = 5;
+    memory.assign(2, 0.0);
+    CHECK_FALSE(at(two, 100e3));
+    CHECK((memory[0] == 100e3 && memory[1] == 100e3));
+    CHECK(at(until::deviator_above(80_kPa), 80e3));
+    CHECK_FALSE(at(until::deviator_above(80_kPa), 79.9e3));
+    CHECK(until::deviator_above(80_kPa).progress(v) == Approx(0.99875));
 }
 
 TEST_CASE("progress of a quantity that falls over decades grows with every decade") {

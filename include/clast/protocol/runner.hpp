@@ -150,7 +150,11 @@ template <class P> class runner {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
           friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_, error_count_,
-          next_row_, row_start_, wall_time_, smoothed_p_, view_);
+          next_row_, row_start_, wall_time_, smoothed_p_, view_, memory_);
+        if constexpr (A::reading)
+            if (begun_ && (finished() || memory_.size() != current().end.memory))
+                throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
+                                  "the stages of this test", "Resume with the stages that the test was made of.");
     }
 
   private:
@@ -202,6 +206,7 @@ template <class P> class runner {
         protocol::check_direction(s, row_start_);
         next_row_ = 1;
         view_ = {};
+        memory_.assign(s.end.memory, 0.0);
         look();
     }
 
@@ -261,6 +266,7 @@ template <class P> class runner {
         view_.p = b.lateral_stress(sim.loads()) + view_.q / 3.0;
         view_.axial_strain = axial_strain();
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
+        view_.memory = memory_;
         view_.steps = stage_steps_;
         view_.time = stage_time_;
     }
@@ -409,6 +415,7 @@ template <class P> class runner {
     double smoothed_p_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;
     stage_view view_;
+    std::vector<double> memory_; ///< of the condition of this stage
     measure::contact_state contacts_;
 };
 

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,6 +66,9 @@ struct stage_view {
     double time = 0.0;            ///< in this stage (s)
     double confining = 0.0;       ///< what the setup says (Pa)
     double grain_diameter = 0.0;  ///< likewise (m)
+    /// What the condition keeps through the stage, as many numbers as its `memory` says: 0 at the start of the stage,
+    /// its own to change, saved with checkpoints.
+    std::span<double> memory{};
 
     /// Force of the setup: its confining stress on the square of a grain's diameter (N).
     double grain_force() const { return confining * grain_diameter * grain_diameter; }
@@ -72,11 +79,33 @@ struct stage_view {
     }
 };
 
+/// A function of a stage_view that keeps no state of its own: no checkpoint would save it, and a test that was stopped
+/// would go on as another one. State belongs into stage_view::memory.
+template <class Answer> class view_function {
+  public:
+    view_function() = default;
+    template <class F>
+    requires(!std::same_as<F, view_function> && std::is_invocable_r_v<Answer, F&, const stage_view&>)
+        view_function(F f) // NOLINT: a lambda is a condition
+        : of_(std::move(f)) {
+        static_assert(
+            std::is_invocable_r_v<Answer, const F&, const stage_view&>,
+            "a condition keeps no state of its own (a mutable lambda), which no checkpoint would save: let it "
+            "keep numbers in stage_view::memory, and say how many in condition::memory");
+    }
+    Answer operator()(const stage_view& v) const { return of_(v); }
+
+  private:
+    std::function<Answer(const stage_view&)> of_;
+};
+
 /// When a stage ends, in words and as a function; `progress` in [0, 1] feeds the progress bar.
 struct condition {
     std::string text;
-    std::function<bool(const stage_view&)> met;
-    std::function<double(const stage_view&)> progress;
+    view_function<bool> met;
+    view_function<double> progress;
+    /// How many numbers it keeps in stage_view::memory. Met is asked once for a state, in the order of the steps.
+    std::size_t memory = 0;
     /// Axial strain without which it is not met, if there is one: a stage that goes the other way is refused.
     std::optional<double> needed_strain{};
     /// Whether it is asked after every step: then a stage ends in the first step in which it is met. Off where it reads
@@ -87,15 +116,24 @@ struct condition {
 namespace detail {
 /// One text and one pair of functions for both operators: what they would capture apart costs time to compile.
 inline condition join(condition a, condition b, bool both) {
+    const auto own = [first = a.memory](const auto& f, bool second, const stage_view& v) {
+        if (v.memory.empty()) return f(v);
+        stage_view part = v; // each keeps its own numbers
+        part.memory = second ? v.memory.subspan(first) : v.memory.first(first);
+        return f(part);
+    };
     condition c;
+    c.memory = a.memory + b.memory;
     c.text = a.text + (both ? " and " : " or ") + b.text;
     if (both) c.needed_strain = a.needed_strain ? a.needed_strain : b.needed_strain;
     c.every_step = a.every_step || b.every_step;
-    c.met = [a = std::move(a.met), b = std::move(b.met), both](const stage_view& v) {
-        return both ? a(v) && b(v) : a(v) || b(v);
+    c.met = [a = std::move(a.met), b = std::move(b.met), both, own](const stage_view& v) {
+        const bool one = own(a, false, v), other = own(b, true, v); // both are asked: they may keep numbers
+        return both ? one && other : one || other;
     };
-    c.progress = [a = std::move(a.progress), b = std::move(b.progress), both](const stage_view& v) {
-        return both ? std::min(a(v), b(v)) : std::max(a(v), b(v));
+    c.progress = [a = std::move(a.progress), b = std::move(b.progress), both, own](const stage_view& v) {
+        const double one = own(a, false, v), other = own(b, true, v);
+        return both ? std::min(one, other) : std::max(one, other);
     };
     return c;
 }
@@ -123,21 +161,45 @@ inline double falling(double now, double limit) {
 /// that is extended comes to a negative one, or back to a smaller one, from above.
 inline condition axial_strain(quantities::ratio ratio) {
     const double strain = ratio.si();
-    return {fmt::format("axial strain {:g} %", 100.0 * strain),
-            [strain](const stage_view& v) {
-                return strain >= v.strain_at_start ? v.axial_strain >= strain : v.axial_strain <= strain;
-            },
-            [strain](const stage_view& v) {
-                const double way = strain - v.strain_at_start;
-                return way != 0.0 ? std::clamp((v.axial_strain - v.strain_at_start) / way, 0.0, 1.0) : 1.0;
-            },
-            strain};
+    condition c{fmt::format("axial strain {:g} %", 100.0 * strain),
+                [strain](const stage_view& v) {
+                    return strain >= v.strain_at_start ? v.axial_strain >= strain : v.axial_strain <= strain;
+                },
+                [strain](const stage_view& v) {
+                    const double way = strain - v.strain_at_start;
+                    return way != 0.0 ? std::clamp((v.axial_strain - v.strain_at_start) / way, 0.0, 1.0) : 1.0;
+                }};
+    c.needed_strain = strain;
+    return c;
 }
 /// q falls to the given value or below, as in unloading.
 inline condition deviator_below(quantities::stress q) {
     const double limit = q.si();
     return {fmt::format("q <= {:g} kPa", 1e-3 * limit), [limit](const stage_view& v) { return v.q <= limit; },
             [limit](const stage_view& v) { return detail::falling(v.q, limit); }};
+}
+/// q is above the given value or at it, as in loading.
+inline condition deviator_above(quantities::stress q) {
+    const double limit = q.si();
+    return {fmt::format("q >= {:g} kPa", 1e-3 * limit), [limit](const stage_view& v) { return v.q >= limit; },
+            [limit](const stage_view& v) { return limit > 0.0 ? std::clamp(v.q / limit, 0.0, 1.0) : 0.0; }};
+}
+/// q has fallen from its largest value in this stage by a share of that, `drop` in (0, 1): the peak is past. A peak of
+/// less than a tenth of the confining stress of the setup is none. Steps scatter: a drop of a few per cent at least.
+inline condition peak_passed(quantities::ratio drop) {
+    const double share = drop.si();
+    const auto fallen = [](const stage_view& v) { // part of the peak
+        const double peak = v.memory[0];
+        return peak > 0.1 * v.confining ? (peak - v.q) / peak : 0.0;
+    };
+    return {.text = fmt::format("q {:g} % below its peak", 100.0 * share),
+            .met =
+                [share, fallen](const stage_view& v) {
+                    v.memory[0] = std::max(v.memory[0], v.q);
+                    return fallen(v) >= share;
+                },
+            .progress = [share, fallen](const stage_view& v) { return std::clamp(fallen(v) / share, 0.0, 1.0); },
+            .memory = 1};
 }
 /// Both `reach` axes have arrived.
 inline condition size_reached() {
