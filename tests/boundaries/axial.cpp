@@ -10,7 +10,7 @@
 #include <clast/boundaries/box.hpp>
 #include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/solid_strips.hpp>
-#include <clast/boundaries/tiles.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/core/random.hpp>
 
 #include <catch.hpp>
@@ -35,10 +35,10 @@ struct barrel {
 };
 
 /// Tiles that 60 steps of uneven loads have bent, each ring in its own way.
-tiles bent() {
+stepped_tiles bent() {
     cylinder_settings c = scenes::cylinder(0.06, 0.12);
     c.rings = 6;
-    tiles wall(c);
+    stepped_tiles wall(c);
     random_stream random{3, 1};
     std::vector<facet_load> loads(at(wall.facet_count()));
     for (int f = first_lateral_facet; f < wall.facet_count(); ++f)
@@ -52,7 +52,7 @@ tiles bent() {
     return wall;
 }
 /// Area of ring k (m^2): sum of width times apothem / 2, from the areas of its tiles.
-double area_of_ring(const tiles& wall, int k) {
+double area_of_ring(const stepped_tiles& wall, int k) {
     double sum = 0.0;
     for (int i = 0; i < wall.tiles_per_ring(); ++i) {
         const int f = first_lateral_facet + k * wall.tiles_per_ring() + i;
@@ -61,7 +61,7 @@ double area_of_ring(const tiles& wall, int k) {
     return sum;
 }
 /// Loads of one pressure (Pa) on the tiles, and of ends that carry `beyond` (N) more than the pressure does there.
-std::vector<facet_load> under(const tiles& wall, double pressure, double beyond) {
+std::vector<facet_load> under(const stepped_tiles& wall, double pressure, double beyond) {
     std::vector<facet_load> loads(at(wall.facet_count()));
     for (int f = 0; f < wall.facet_count(); ++f)
         loads[at(f)] = {pressure * (f < first_lateral_facet ? wall.end_section(f) : wall.area(f)), contact, 1};
@@ -86,7 +86,7 @@ TEST_CASE("q is force beyond the pressure at the ends, over the mean section") {
 }
 
 TEST_CASE("the axial stress is the mean over the height of what the grains of a bent specimen carry") {
-    const tiles wall = bent();
+    const stepped_tiles wall = bent();
     const double pressure = 2e5, beyond = 300.0;
     const auto loads = under(wall, pressure, beyond);
     CHECK(wall.end_section(bottom_platen) == Approx(area_of_ring(wall, 0)).epsilon(1e-12));
@@ -101,7 +101,7 @@ TEST_CASE("the axial stress is the mean over the height of what the grains of a 
 }
 
 TEST_CASE("under one stress all round no platen moves, though the ends are not as wide as the middle") {
-    tiles wall = bent();
+    stepped_tiles wall = bent();
     drives d;
     d.platens = d.lateral = {drive::mode::servo, 2e5, 0.05, 0.5};
     wall.control(under(wall, 2e5, 0.0), d, 1e-5);

@@ -27,7 +27,7 @@ engine<scenes::breakable<boundaries::tiles>> broken(int threads) {
     auto e = scenes::packed<P>(s, shapes::tetrahedron_4(0.02), 60, 0.052, 2e5, 1500);
     e.breakage_on = true;
     e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.2};
-    e.step(1000);
+    e.step(1500);
     (void)e.take_events();
     return e;
 }

@@ -578,7 +578,7 @@ template <class X> std::vector<facet_view> node_rows<X>::view(std::span<const fa
         const double z = f == bottom_platen ? platens_.bottom : platens_.top;
         out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
                        loads[index(f)].force / end_section(f),
-                       area(f),
+                       end_section(f),
                        -1,
                        -1});
     }
