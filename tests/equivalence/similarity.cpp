@@ -159,6 +159,7 @@ triaxial_setup<P> toy_setup(const factors& by, materials_of<typename P::contact>
 /// the specimen is seated.
 template <class P> record run_toy(triaxial_setup<P> setup, double strain, bool impatient) {
     std::vector<stage> stages = protocol::triaxial_compression(quantities::ratio(strain));
+    stages[0].yields_at = 0.1; // for fewer steps
     if (impatient) stages[1].most_steps = 400, stages[2].end = until::steps(500);
     stages[3].end = until::stresses_within(0.05) || until::steps(6000);
     stages[3].breakage = false;

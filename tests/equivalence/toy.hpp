@@ -39,7 +39,9 @@ template <class P> triaxial_setup<P> setup(int threads = 1, double diameter = 0.
 template <class P> std::vector<stage> stages(const triaxial_setup<P>& t, double strain) {
     std::vector<stage> s;
     s.push_back(protocol::preparation(t.diameter, t.height)[0]); // compact
+    s.back().yields_at = 0.0;
     stage c = protocol::consolidation(t.confining);
+    c.walls_at_rest = false;
     c.end = until::stresses_within(0.05) || until::steps(6000);
     c.breakage = false;
     s.push_back(c);

@@ -33,10 +33,16 @@ inline triaxial_setup<rigid> setup() {
             .tiles_per_ring = 8,
             .inertial_number = 5e-3};
 }
-inline stage compact() { return protocol::preparation(66_mm, 75_mm)[0]; }
+/// Without regard for what it loads the grains with, so that it takes few steps.
+inline stage compact() {
+    stage s = protocol::preparation(66_mm, 75_mm)[0];
+    s.yields_at = 0.0;
+    return s;
+}
 inline stage consolidate() {
     stage s = protocol::consolidation(200_kPa);
     s.end = until::stresses_within(0.02) && until::unbalanced_below(0.02);
+    s.walls_at_rest = false; // in few steps
     return s;
 }
 inline stage rest(std::int64_t n) { return {.name = "rest", .end = until::steps(n)}; }

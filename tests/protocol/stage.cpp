@@ -25,6 +25,9 @@ TEST_CASE("conditions are met at their limits and not before, and say so in word
     check(until::unbalanced_below(1e-3), v.unbalanced_ratio, 1.1e-3, 0.9e-3);
     check(until::spheres_below(1_kPa), v.sphere_stress, 1001.0, 999.0);
     check(until::size_reached(), v.travel_left, 0.01, 0.0);
+    check(until::coordination_below(1.0), v.coordination, 1.1, 0.9);
+    v.confining = 2e6;
+    check(until::kinetic_below_of_setup(1e-7), v.kinetic_density, 0.21, 0.19);
     CHECK(until::axial_strain(25_percent).text == "axial strain 25 %");
     CHECK(until::deviator_below(10_kPa).text == "q <= 10 kPa");
 
@@ -106,6 +109,9 @@ TEST_CASE("conditions join by and, by or, and the progress follows") {
     CHECK(both.progress(v) == Approx(0.5));
     CHECK(either.progress(v) == 1.0);
     CHECK(both.text == "axial strain 10 % and 100 steps");
+    CHECK(both.reason(v) == "axial strain 10 % and 100 steps");
+    CHECK(either.reason(v) == "axial strain 10 %"); // the way that was met
+    CHECK((either && until::steps(50)).reason(v) == "axial strain 10 % and 50 steps");
     CHECK(either.text == "axial strain 10 % or 100 steps");
     v.steps = 100;
     CHECK(both.met(v));

@@ -85,7 +85,7 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
     CHECK(s.solid_volume() / (section * 0.075) == Approx(0.38).margin(0.5 * s.shapes[0].volume / (section * 0.075)));
     CHECK(test.sim().boundary.height() == Approx(1.8 * 0.075));
     CHECK(test.sim().boundary.radius() == Approx(1.8 * 0.033));
-    for (std::size_t g = 0; g < s.grain_count(); ++g) CHECK(dot(s.motion[g].v, s.motion[g].x) <= 0.0); // inwards
+    CHECK(test.sim().kinetic_energy() == 0.0); // the stage that compacts sends it off
     CHECK(test.sim().elastic_energy() == 0.0);
     // stiffness in series, the smaller friction
     CHECK(test.sim().settings.grain_contact.kn == Approx(2.9e6));
@@ -123,7 +123,6 @@ TEST_CASE("a test of spheres takes a single sphere as its grain, and says so") {
     const triaxial_test<of_spheres> test(s, protocol::preparation(66_mm, 75_mm));
     const bodies::spheres& grains = test.sim().grains;
     REQUIRE(grains.body_count() > 10);
-    for (std::size_t b = 0; b < grains.body_count(); ++b) CHECK(dot(grains.pebbles[b].v, grains.centre(b)) < 0.0);
 }
 
 TEST_CASE("the stages of the paper come in their order, the membrane with the consolidation, strain from shear on") {
@@ -153,15 +152,13 @@ TEST_CASE("stages take sizes, stress and inertial number from the setup, or are 
     std::vector<stage> given = protocol::triaxial_compression(66_mm, 75_mm, 200_kPa, 1_percent, 5e-3);
     given.push_back(protocol::unloading(200_kPa, 5_kPa, 5e-3));
     REQUIRE(from.size() == given.size());
-    const auto in_si = [](const axis_drive& a) { return a.of_setup ? a.value * 200e3 : a.value; }; // that of seating
     for (std::size_t k = 0; k < from.size(); ++k) {
         CHECK(from[k].name == given[k].name);
         CHECK(from[k].axial.how == given[k].axial.how);
-        CHECK(from[k].axial.value == in_si(given[k].axial));
-        CHECK(from[k].lateral.value == in_si(given[k].lateral));
+        CHECK(from[k].axial.value == given[k].axial.value);
+        CHECK(from[k].lateral.value == given[k].lateral.value);
         CHECK_FALSE(from[k].axial.of_setup);
     }
-    CHECK(from[2].axial.value == 100.0); // 5e-4 of 200 kPa
     const auto refused = [&](const std::vector<stage>& stages) -> std::string {
         try {
             (void)taken(stages);
@@ -176,9 +173,9 @@ TEST_CASE("stages take sizes, stress and inertial number from the setup, or are 
         CHECK(text.find(values) != std::string::npos);
     };
     names(refused(protocol::triaxial_compression(140_mm, 75_mm, 200_kPa, 1_percent)),
-          "diameter of the setup, and of stage 'compact'", "66 and 140 mm");
+          "diameter of the setup, and of stage 'seat'", "66 and 140 mm");
     names(refused(protocol::triaxial_compression(66_mm, 150_mm, 200_kPa, 1_percent)),
-          "height of the setup, and of stage 'compact'", "75 and 150 mm");
+          "height of the setup, and of stage 'seat'", "75 and 150 mm");
     names(refused(protocol::triaxial_compression(66_mm, 75_mm, 5_MPa, 1_percent)),
           "confining of the setup, and of stage 'shear'", "200 and 5000 kPa");
     // several on the way are well, and a preparation alone
@@ -187,28 +184,6 @@ TEST_CASE("stages take sizes, stress and inertial number from the setup, or are 
     more.push_back(protocol::shear(300_kPa, 2_percent));
     CHECK(refused(more).empty());
     CHECK(refused(protocol::preparation(66_mm, 75_mm)).empty());
-}
-
-TEST_CASE("the preparation ends at parts of the stress and grains of the setup: at 1 kPa of the paper's 2 MPa") {
-    const std::vector<stage> s = protocol::preparation();
-    REQUIRE(s[1].name == "relax");
-    stage_view v;
-    v.steps = 5000;
-    const auto ends = [&](double confining, double diameter, double unbalanced, double stress, double force) {
-        v.confining = confining, v.grain_diameter = diameter;
-        v.unbalanced_ratio = unbalanced, v.sphere_stress = stress, v.mean_contact_force = force;
-        return s[1].end.met(v);
-    };
-    for (const double scale : {1.0, 0.01, 100.0}) {
-        const double sigma = 2e6 * scale, rests = 9e-4, moves = 0.5;
-        CHECK(ends(sigma, 0.02, rests, 990.0 * scale, 10.0 * scale)); // at rest, under hardly any stress
-        CHECK_FALSE(ends(sigma, 0.02, 1.1e-3, 990.0 * scale, 10.0 * scale));
-        CHECK_FALSE(ends(sigma, 0.02, rests, 1010.0 * scale, 10.0 * scale));
-        CHECK(ends(sigma, 0.02, moves, 1e4 * scale, 0.79 * scale)); // nothing carries a load
-        CHECK_FALSE(ends(sigma, 0.02, moves, 1e4 * scale, 0.81 * scale));
-        CHECK(ends(sigma, 0.2, moves, 1e4 * scale, 79.0 * scale)); // of grains ten times as large
-        CHECK_FALSE(ends(sigma, 0.2, moves, 1e4 * scale, 81.0 * scale));
-    }
 }
 
 TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at a small stress, at its size") {
@@ -287,13 +262,14 @@ TEST_CASE("slender and flat grains pack as others do: their cloud takes the room
         setup_type s = good();
         s.grain = scaled_to(make_shape(name, pebbles), 0.024);
         s.porosity = 0.58;
+        s.confining = 2_MPa;
         triaxial_test<rigid> test(s, protocol::preparation());
         CHECK(test.sim().boundary.height() > 1.8 * 0.075);
         observer quiet;
         REQUIRE(test.run(quiet));
         const sample now = test.protocol().measure();
         CHECK(now.porosity == Approx(0.58).margin(0.02));
-        CHECK(now.p < 10e3); // not squeezed: of 200 kPa to come
+        CHECK(now.p < 1e3); // not squeezed: of 2 MPa to come
     }
 }
 

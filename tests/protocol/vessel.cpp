@@ -91,10 +91,10 @@ template <class P> sample sheared(const shape& grain, double porosity) {
                                   .rings = 4,
                                   .tiles_per_ring = 8,
                                   .inertial_number = 5e-3};
-    stage settle = protocol::consolidation(200_kPa);
+    stage compact = protocol::preparation(66_mm, 75_mm)[0], settle = protocol::consolidation(200_kPa);
+    compact.yields_at = 0.0, settle.walls_at_rest = false; // in few steps
     settle.end = until::stresses_within(0.02) && until::unbalanced_below(0.02);
-    triaxial_test<P> test(setup,
-                          {protocol::preparation(66_mm, 75_mm)[0], settle, protocol::shear(200_kPa, 1_percent, 5e-3)});
+    triaxial_test<P> test(setup, {compact, settle, protocol::shear(200_kPa, 1_percent, 5e-3)});
     observer quiet;
     REQUIRE(test.run(quiet));
     const std::vector<pebble_view> seen = test.protocol().pebbles();

@@ -106,6 +106,10 @@ template <class P> class engine : private scene<P> {
     }
     /// To be called after velocities or the field were set by hand, so that the audit knows of their energy.
     void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy() + potential_energy(); }
+    /// The same while a scene runs. before: kinetic and potential energy before velocities were set (J).
+    void count_energy_since(double before) {
+        scene_type::totals.initial_energy += kinetic_energy() + potential_energy() - before;
+    }
     /// Broken bonds since the last call, in the order in which they broke.
     std::vector<fracture_event> take_events() { return this->broken.take_events(); }
     /// Places the pebbles that no contact needed, too (for output; changes nothing that a step reads).

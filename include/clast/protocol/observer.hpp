@@ -20,6 +20,8 @@ class observer {
     virtual void on_events(const std::vector<fracture_event>&) {} ///< bonds broken since the last call
     /// A stage begins, before its first row, or has ended, after its last.
     virtual void on_stage(const std::string& /*name*/, bool /*begins*/) {}
+    /// What the one who reads the results should know: a stage that went on short of its end.
+    virtual void on_note(const std::string&) {}
     virtual void on_progress(const sample&, double /*of the stage*/, double /*of the test*/) {}
     /// Between two steps, with all events reported: the place to save a checkpoint.
     virtual void on_pause() {}

@@ -25,9 +25,12 @@
 #include <clast/measure/totals.hpp>
 #include <clast/protocol/check_specimen.hpp>
 #include <clast/protocol/observer.hpp>
+#include <clast/protocol/preparation.hpp>
 #include <clast/protocol/stage.hpp>
+#include <clast/protocol/stage_record.hpp>
 #include <clast/protocol/test_plan.hpp>
 #include <clast/protocol/vessel.hpp>
+#include <clast/protocol/wall_speed.hpp>
 
 namespace clast {
 
@@ -44,7 +47,7 @@ template <class P> class runner {
     /// `membrane`: of the boundary that takes the vessel's place in a stage with `membrane_here`, at the size that the
     /// vessel has then.
     runner(engine_type& e, test_plan p, const boundaries::vessel_settings& membrane)
-        : sim(e), plan(protocol::completed(std::move(p))), membrane_(membrane) {
+        : sim(e), plan(protocol::completed(std::move(p))), membrane_(membrane), speed_(plan, e.grains.density) {
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         reference_height_ = sim.boundary.height();
@@ -66,6 +69,7 @@ template <class P> class runner {
             ++stage_steps_;
             stage_time_ += sim.dt();
             confining_now();
+            if (speed_.yields(current())) give_way();
             if (every > 0 && sim.totals().steps % every == 0) {
                 sim.place_all();
                 scene_watch_->on_step(sim.state());
@@ -84,7 +88,7 @@ template <class P> class runner {
             watch.on_progress(measure(), part,
                               (static_cast<double>(stage_) + part) / static_cast<double>(plan.stages.size()));
             if (ended)
-                end_stage(watch, true);
+                end_stage(watch, true, current().end.reason(view_));
             else
                 try_next_friction(watch);
             flush_events(watch);
@@ -99,6 +103,8 @@ template <class P> class runner {
     bool finished() const { return stage_ >= plan.stages.size(); }
     double axial_strain() const { return 1.0 - sim.boundary.height() / reference_height_; }
     double wall_time() const { return wall_time_; }
+    /// Of the stages that have ended, in their order.
+    const std::vector<stage_record>& records() const { return records_; }
 
     /// The state of the specimen now.
     sample measure() const {
@@ -149,8 +155,8 @@ template <class P> class runner {
     template <class A> void archive(A& a) {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
-          friction_try_, reference_height_, reference_volume_, reference_, start_size_, error_sum_, error_count_,
-          next_row_, row_start_, wall_time_, smoothed_p_, view_, memory_);
+          reference_height_, reference_volume_, reference_, speed_, error_sum_, error_count_, next_row_, row_start_,
+          wall_time_, record_, records_, tries_, view_, memory_);
         if constexpr (A::reading)
             if (begun_ && (finished() || memory_.size() != current().end.memory))
                 throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
@@ -159,7 +165,6 @@ template <class P> class runner {
 
   private:
     const stage& current() const { return plan.stages[stage_]; }
-    double rate_at(double i, double p) const { return i * std::sqrt(p / sim.grains.density) / plan.grain_diameter; }
     /// What the audit cannot explain in a state just measured (J).
     double unexplained(const sample& s) const {
         return s.boundary_work + sim.totals().initial_energy - s.kinetic_energy - s.elastic_energy -
@@ -184,7 +189,7 @@ template <class P> class runner {
         const stage& s = current();
         begun_ = true;
         ended_by_itself_ = false;
-        stage_steps_ = 0, stage_time_ = 0.0, friction_try_ = 0;
+        stage_steps_ = 0, stage_time_ = 0.0, tries_ = 0;
         error_sum_ = 0.0, error_count_ = 0;
         if (s.membrane_here) sim.set_boundary(sim.boundary.resized(membrane_));
         if (s.reference_here) {
@@ -195,47 +200,68 @@ template <class P> class runner {
             for (const auto& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
         }
         sim.breakage_on = s.breakage;
-        sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
-        start_size_ = {sim.boundary.height(), radius()};
+        if (!s.keeps_friction) sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
+        if (s.from_rest) protocol::stop_grains(sim);
+        record_ = {};
+        record_.name = s.name, record_.friction = sim.friction();
         const sample now = measure();
         stage_work_ = now.boundary_work;
         stage_losses_ = now.friction_dissipation + now.damping_dissipation;
         stage_residual_ = unexplained(now);
-        smoothed_p_ = std::max(now.p, 0.01 * plan.confining);
+        speed_.begin(s, felt(now.p, now.coordination));
         row_start_ = axial_strain();
         protocol::check_direction(s, row_start_);
         next_row_ = 1;
         view_ = {};
         memory_.assign(s.end.memory, 0.0);
-        look();
+        look(true);
     }
 
-    void end_stage(observer& watch, bool by_itself) {
-        if (last_row_ != sim.totals().steps) report(watch); // else the row of this very step has just been there
+    /// end: what ended it, in words.
+    void end_stage(observer& watch, bool by_itself, std::string end) {
+        // the row of this very step may have just been there
+        const sample now = last_row_ != sim.totals().steps ? report(watch) : measure();
+        record_.end = std::move(end);
+        record_.reached = by_itself;
+        record_.p = now.p, record_.porosity = now.porosity, record_.coordination = now.coordination;
+        record_.unbalanced_ratio = now.unbalanced_ratio, record_.steps = stage_steps_;
+        records_.push_back(record_);
         watch.on_stage(current().name, false);
+        if (!by_itself) watch.on_note(fmt::format("{}: {}", record_.name, record_.end));
         ended_by_itself_ = by_itself;
         begun_ = false;
         ++stage_;
     }
 
+    /// Whether walls that go to a size advance no more.
+    bool jammed() const {
+        return speed_.yields(current()) && view_.travel_left > 0.0 && view_.coordination >= 1.0 &&
+               speed_.advance() < plan.jammed_inertial_number;
+    }
     /// The next friction of the list once the specimen rests short of its goal; then the end of the patience.
     void try_next_friction(observer& watch) {
         const stage& s = current();
-        const bool at_rest = stage_steps_ > 2000 && view_.unbalanced_ratio < 1e-3;
-        const bool out_of_steps = stage_steps_ >= s.most_steps;
         if (!s.then_friction.empty() || s.give_up_gently) {
+            const bool stuck = jammed(), at_rest = stage_steps_ > 2000 && view_.unbalanced_ratio < 1e-3;
             const std::int64_t share = s.most_steps / static_cast<std::int64_t>(s.then_friction.size() + 1);
-            if (!at_rest && stage_steps_ < (friction_try_ + 1) * share) return;
-            if (friction_try_ < static_cast<std::int64_t>(s.then_friction.size())) {
-                sim.set_friction(s.then_friction[static_cast<std::size_t>(friction_try_++)]);
+            if (!stuck && !at_rest && stage_steps_ < (tries_ + 1) * share) return;
+            const auto next = std::find_if(s.then_friction.begin(), s.then_friction.end(),
+                                           [&](double mu) { return mu < sim.friction(); });
+            if (next != s.then_friction.end()) {
+                ++tries_;
+                sim.set_friction(record_.friction = *next);
+                speed_.try_again(s);
                 return;
             }
             if (s.give_up_gently) {
-                end_stage(watch, false);
+                end_stage(watch, false, protocol::short_of(s, view_, sim.friction(), porosity(), stuck));
                 return;
             }
         }
-        if (!out_of_steps) return;
+        if (stage_steps_ >= s.most_steps) fail();
+    }
+    [[noreturn]] void fail() const {
+        const stage& s = current();
         const sample now = measure();
         throw run_error(
             {fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
@@ -253,6 +279,17 @@ template <class P> class runner {
     }
 
     double radius() const { return sim.boundary.radius(); }
+    double porosity() const { return 1.0 - solid_volume_ / sim.boundary.volume(); }
+    protocol::wall_view felt(double p, double coordination) const {
+        return {sim.boundary.height(), radius(), p, coordination, static_cast<double>(plan.look_every) * sim.dt()};
+    }
+    void give_way() {
+        const auto& b = sim.boundary;
+        const double p = (b.axial_stress(sim.loads()) + 2.0 * b.lateral_stress(sim.loads())) / 3.0;
+        speed_.yield(sim.drives, current(),
+                     protocol::load_of_walls(sim.loads(), p, b.height(), radius(), b.volume(), speed_.moving()),
+                     sim.dt());
+    }
 
     bool met_between_looks() {
         if (!current().end.every_step) return false;
@@ -271,7 +308,8 @@ template <class P> class runner {
         view_.time = stage_time_;
     }
     /// Refreshes all of the view that conditions see, and the drives that depend on it.
-    void look() {
+    /// first: before the first step.
+    void look(bool first = false) {
         const auto& b = sim.boundary;
         const stage& s = current();
         glance();
@@ -282,9 +320,10 @@ template <class P> class runner {
         const measure::contact_state c = measure::contacts_of(sim);
         view_.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
         view_.mean_contact_force = c.mean_contact_force;
+        view_.coordination = c.coordination;
+        view_.kinetic_density = sim.kinetic_energy() / b.volume();
         contacts_ = c;
-        const double kinetic = sim.kinetic_energy(), elastic = sim.elastic_energy();
-        view_.kinetic_ratio = elastic > 0.0 ? kinetic / elastic : 1.0;
+        if (!first) record_.largest_p = std::max(record_.largest_p, view_.p);
         const double r = 0.7 * radius(), h = b.height();
         view_.sphere_stress = 0.0;
         for (double z : {1.0 / 6.0, 0.5, 5.0 / 6.0})
@@ -295,61 +334,11 @@ template <class P> class runner {
                                 ? std::abs(sigma_1 - s.axial.value) / std::max(s.axial.value, least_stress())
                                 : 0.0;
         view_.confining_error = confining_error(s);
-        view_.travel_left = 0.0;
-        if (s.axial.how == axis_drive::kind::reach)
-            view_.travel_left = std::max(view_.travel_left, left(h, start_size_[0], s.axial.value));
-        if (s.lateral.how == axis_drive::kind::reach)
-            view_.travel_left = std::max(view_.travel_left, left(radius(), start_size_[1], s.lateral.value));
-        smoothed_p_ += 0.1 * (std::max(view_.p, 0.01 * plan.confining) - smoothed_p_);
-        drive(c.coordination);
-    }
-    static double left(double now, double start, double target) {
-        const double rest = start == target ? 0.0 : (now - target) / (start - target);
-        return rest > 1e-7 ? rest : 0.0;
-    }
-
-    /// Drives for the next steps, from the stage's axes and the state just seen.
-    void drive(double coordination) {
-        using mode = boundaries::drive::mode;
-        const stage& s = current();
-        const double shear_rate = rate_at(plan.inertial_number, plan.confining);
-        const double packing_rate = coordination < 1.0 ? plan.packing_rate_before_contact * shear_rate
-                                                       : std::min(plan.packing_rate_before_contact * shear_rate,
-                                                                  rate_at(plan.packing_inertial_number, smoothed_p_));
-        // a tile of a bulge moves at half the strain rate times the radius; where grains slip it has to run after them
-        const double servo_speed = 6.0 * shear_rate * plan.radius;
-        const double look_time = static_cast<double>(plan.look_every) * sim.dt();
-        const auto one = [&](const axis_drive& a, double size, double share, double start) {
-            boundaries::drive d;
-            d.gain = plan.servo_gain;
-            d.max_speed = servo_speed;
-            switch (a.how) {
-            case axis_drive::kind::hold:
-                break;
-            case axis_drive::kind::rate:
-                d.how = mode::velocity, d.value = share * a.value * size;
-                break;
-            case axis_drive::kind::inertial:
-                d.how = mode::velocity;
-                d.value = std::copysign(share * size * rate_at(std::abs(a.value), smoothed_p_), a.value);
-                break;
-            case axis_drive::kind::stress:
-                d.how = mode::servo, d.value = a.value;
-                break;
-            case axis_drive::kind::reach: {
-                const double way = size - a.value;
-                if (way <= 1e-9 * start) break;
-                // in the free cloud walls keep the speed at which the grains were sent off; at the target they stop
-                const double speed = packing_rate * (coordination < 1.0 ? start : size);
-                d.how = mode::velocity;
-                d.value = share * std::min(speed, way / look_time);
-                break;
-            }
-            }
-            return d;
-        };
-        sim.drives.platens = one(s.axial, sim.boundary.height(), 0.5, start_size_[0]);
-        sim.drives.lateral = one(s.lateral, radius(), 1.0, start_size_[1]);
+        view_.travel_left = std::max(speed_.way_left(s.axial, 0, h), speed_.way_left(s.lateral, 1, radius()));
+        sim.drives = speed_.look(s, felt(view_.p, c.coordination), first);
+        if (speed_.yields(s)) give_way();
+        if (s.moves_grains && c.coordination < 1.0)
+            protocol::move_free_grains(sim, speed_.rates()[0], speed_.rates()[1]);
     }
 
     double least_stress() const { return plan.least_stress * plan.confining; }
@@ -376,7 +365,7 @@ template <class P> class runner {
         return stage_steps_ % plan.row_steps == 0;
     }
 
-    void report(observer& watch) {
+    sample report(observer& watch) {
         flush_events(watch);
         last_row_ = sim.totals().steps;
         const sample row = measure();
@@ -388,6 +377,7 @@ template <class P> class runner {
         error_sum_ = 0.0, error_count_ = 0;
         const double done = std::abs(axial_strain() - row_start_);
         next_row_ = 1 + static_cast<std::int64_t>(done / plan.row_strain);
+        return row;
     }
     void flush_events(observer& watch) {
         std::vector<fracture_event> events = sim.take_events();
@@ -403,16 +393,17 @@ template <class P> class runner {
     bool ended_by_itself_ = false;
     std::int64_t stage_steps_ = 0;
     double stage_time_ = 0.0, stage_work_ = 0.0, stage_losses_ = 0.0, stage_residual_ = 0.0;
-    std::int64_t friction_try_ = 0;
+    std::int64_t tries_ = 0; ///< frictions tried in this stage
     double reference_height_ = 0.0, reference_volume_ = 0.0;
     std::vector<vec3> reference_;
-    std::array<double, 2> start_size_{};
+    protocol::wall_speed speed_;
+    stage_record record_;               ///< of the running stage
+    std::vector<stage_record> records_; ///< of those that have ended
     double error_sum_ = 0.0;
     std::int64_t error_count_ = 0;
     std::int64_t next_row_ = 1, last_row_ = -1; ///< number of the next one in shear; step of the last one
     double row_start_ = 0.0;                    ///< axial strain at the start of the stage
     double wall_time_ = 0.0;
-    double smoothed_p_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;
     stage_view view_;
     std::vector<double> memory_; ///< of the condition of this stage

@@ -58,7 +58,8 @@ struct stage_view {
     double unbalanced_ratio = 1.0;
     double sphere_stress = 0.0;      ///< largest |p'| in the three measurement spheres (Pa)
     double mean_contact_force = 0.0; ///< N
-    double kinetic_ratio = 0.0;      ///< kinetic energy over elastic energy (1 where nothing is stored)
+    double coordination = 0.0;       ///< touching neighbours per body; below 1 there is no network that carries
+    double kinetic_density = 0.0;    ///< kinetic energy over the volume of the specimen (Pa)
     double axial_error = 0.0; ///< |sigma_1 - target| / target (test_plan::least_stress at least) under stress control
     double confining_error = 0.0; ///< the same of sigma_3 under lateral stress control
     double travel_left = 0.0;     ///< share of the way that `reach` axes still have to go, 1 to 0
@@ -75,7 +76,8 @@ struct stage_view {
 
     template <class A> void archive(A& a) {
         a(axial_strain, strain_at_start, volumetric_strain, q, p, unbalanced_ratio, sphere_stress, mean_contact_force,
-          kinetic_ratio, axial_error, confining_error, travel_left, steps, time, confining, grain_diameter);
+          coordination, kinetic_density, axial_error, confining_error, travel_left, steps, time, confining,
+          grain_diameter);
     }
 };
 
@@ -111,6 +113,11 @@ struct condition {
     /// Whether it is asked after every step: then a stage ends in the first step in which it is met. Off where it reads
     /// only what a look finds.
     bool every_step = true;
+    /// Of conditions that are met in several ways: in which, in words.
+    std::function<std::string(const stage_view&)> way{};
+
+    /// What was met, in words.
+    std::string reason(const stage_view& v) const { return way ? way(v) : text; }
 };
 
 namespace detail {
@@ -127,6 +134,14 @@ inline condition join(condition a, condition b, bool both) {
     c.text = a.text + (both ? " and " : " or ") + b.text;
     if (both) c.needed_strain = a.needed_strain ? a.needed_strain : b.needed_strain;
     c.every_step = a.every_step || b.every_step;
+    if (!both || a.way || b.way)
+        c.way = [a, b, both, own](const stage_view& v) {
+            const auto reason = [](const condition& of) {
+                return [&of](const stage_view& part) { return of.reason(part); };
+            };
+            if (both) return own(reason(a), false, v) + " and " + own(reason(b), true, v);
+            return own(a.met, false, v) ? own(reason(a), false, v) : own(reason(b), true, v);
+        };
     c.met = [a = std::move(a.met), b = std::move(b.met), both, own](const stage_view& v) {
         const bool one = own(a, false, v), other = own(b, true, v); // both are asked: they may keep numbers
         return both ? one && other : one || other;
@@ -242,6 +257,19 @@ inline condition unloaded_of_setup(double part) {
          [part](const stage_view& v) { return v.mean_contact_force < part * v.grain_force() && v.steps > 1000; },
          [part](const stage_view& v) { return detail::falling(v.mean_contact_force, part * v.grain_force()); }});
 }
+/// Fewer touching neighbours per body than a network has that carries something.
+inline condition coordination_below(double z) {
+    return detail::at_looks({fmt::format("coordination < {:g}", z),
+                             [z](const stage_view& v) { return v.coordination < z; },
+                             [z](const stage_view& v) { return detail::falling(v.coordination, z); }});
+}
+/// Kinetic energy per volume, in parts of the confining stress of the setup, below the limit.
+inline condition kinetic_below_of_setup(double part) {
+    return detail::at_looks(
+        {fmt::format("kinetic energy per volume < {:g} of the confining stress", part),
+         [part](const stage_view& v) { return v.kinetic_density < part * v.confining; },
+         [part](const stage_view& v) { return detail::falling(v.kinetic_density, part * v.confining); }});
+}
 /// Servo-controlled stresses within the tolerance of their targets.
 inline condition stresses_within(double tolerance) {
     return detail::at_looks(
@@ -267,8 +295,16 @@ struct stage {
     bool breakage = true;                ///< whether clumps may be replaced in this stage
     bool reference_here = false;         ///< strains, displacements and e0 count from the start of this stage
     bool membrane_here = false;          ///< the preparation vessel becomes the membrane at the start of this stage
-    double friction = -1.0;              ///< pebble friction in this stage; negative: that of the material
-    /// Frictions to try one after the other where the specimen has come to rest short of `end`.
+    bool moves_grains = false; ///< while they carry nothing, grains move with the walls, as a uniform strain would have
+    bool from_rest = false;    ///< grains stop where the stage begins
+    /// Stress at which axes that go to a size give way, in parts of the confining stress of the setup; 0: they do not.
+    double yields_at = 0.0;
+    bool yields_back = false;    ///< also beyond the size that they have reached
+    bool walls_at_rest = false;  ///< walls under servo control keep to the inertial numbers of consolidation
+    double friction = -1.0;      ///< pebble friction in this stage; negative: that of the material
+    bool keeps_friction = false; ///< it begins with the friction that the stage before has ended with
+    /// Frictions to try where the specimen has come to rest, or jammed, short of `end`: from the first that is below
+    /// the present one on, one after the other.
     std::vector<double> then_friction{};
     bool give_up_gently = false;  ///< having tried all, go on with the next stage instead of stopping
     bool skip_if_relaxed = false; ///< leave out where the stage before reached its end by itself

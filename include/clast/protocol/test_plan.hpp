@@ -2,6 +2,7 @@
 // Stages, sizes and rates of a test, as a runner takes them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,10 +26,23 @@ struct test_plan {
     double inertial_number = 1e-4;         ///< largest during loading (paper: 1e-4)
     double packing_inertial_number = 1e-3; ///< largest during preparation once grains touch, at p >= 1 % of confining
     double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
+    /// Below this inertial number at the stress at which walls give way, a specimen that is being compacted has jammed.
+    double jammed_inertial_number = 5e-4;
+    double consolidation_inertial_number = 1e-3; ///< of walls in consolidation, or that of shear where it is larger
+    double final_inertial_number = 1e-4;         ///< the same over the last part of the stress
+    double consolidation_floor = 0.05;           ///< least p' in these numbers, in parts of the confining stress
+    double final_share = 0.8;                    ///< part of the confining stress at which the last part begins
     double servo_gain = 0.5;
     double row_strain = 5e-4;      ///< axial strain between rows while strain is the clock
     std::int64_t row_steps = 2000; ///< steps between rows otherwise, and at most in any stage (x 10)
     std::int64_t look_every = 100; ///< steps between looks at conditions, escapes and requests to stop
+
+    /// Of walls and grains at the confining stress, while hardly any grain touches another: not beyond what may be once
+    /// they do, but where shear is faster.
+    double inertial_number_in_flight() const {
+        return std::min(packing_rate_before_contact * inertial_number,
+                        std::max(packing_inertial_number, inertial_number));
+    }
 };
 
 namespace protocol {

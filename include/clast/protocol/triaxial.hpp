@@ -19,6 +19,7 @@
 #include <clast/engine/engine.hpp>
 #include <clast/grains/mixture.hpp>
 #include <clast/protocol/packing.hpp>
+#include <clast/protocol/preparation.hpp>
 #include <clast/protocol/runner.hpp>
 #include <clast/protocol/stage.hpp>
 
@@ -86,45 +87,6 @@ template <class P> struct triaxial_setup {
 namespace protocol {
 
 // Sizes, stress and inertial number are those of the setup, unless they are given: a test compares them then.
-
-/// Cloud to specimen: compaction by moving walls and grains, then relaxation at fixed walls until the unbalanced ratio
-/// is below 0.1 % and p' below 0.05 % of the confining stress in three spheres (the paper's 1 kPa at 2 MPa), or until
-/// nothing carries a load worth the name. A specimen that stays loaded tries lower frictions, and as a last resort
-/// servo control to that stress.
-inline std::vector<stage> preparation() {
-    constexpr double rest = 5e-4; // of the confining stress
-    std::vector<stage> s;
-    s.push_back({.name = "compact",
-                 .axial = drive_by::size_of_setup(),
-                 .lateral = drive_by::size_of_setup(),
-                 .end = until::size_reached(),
-                 .breakage = false,
-                 .if_stuck = "The specimen is denser than its grains can be packed: raise the porosity."});
-    s.push_back({.name = "relax",
-                 .end = (until::unbalanced_below(1e-3) && until::spheres_below_of_setup(rest)) ||
-                        until::unloaded_of_setup(1e-3),
-                 .most_steps = 200'000,
-                 .breakage = false,
-                 .then_friction = {0.15, 0.05, 0.0},
-                 .give_up_gently = true});
-    s.push_back({.name = "seat",
-                 .axial = drive_by::stress_of_setup(rest),
-                 .lateral = drive_by::stress_of_setup(rest),
-                 .end = until::stresses_within(0.05) && until::unbalanced_below(1e-2),
-                 .most_steps = 400'000,
-                 .breakage = false,
-                 .friction = 0.0,
-                 .skip_if_relaxed = true,
-                 .if_stuck = "The specimen cannot carry a small stress evenly: raise the porosity."});
-    return s;
-}
-
-inline std::vector<stage> preparation(quantities::length diameter, quantities::length height) {
-    std::vector<stage> s = preparation();
-    s.front().axial = drive_by::size(height);
-    s.front().lateral = drive_by::size(0.5 * diameter);
-    return s;
-}
 
 /// Servo control of membrane and platens to an isotropic stress until the error is below 0.1 % and the specimen rests.
 inline stage consolidation() {
@@ -322,11 +284,6 @@ template <class P> class triaxial_test {
         for (const mixture_grain& g : grains) spheres += sphere_volume(s.grain.reach(g));
         boundary_type vessel = vessel_of(s, std::max(s.vessel, std::cbrt(spheres / (0.25 * volume))));
         protocol::add(sp, s.grain, protocol::cloud_of(sp, s.grain, grains, protocol::inside(vessel), s.seed));
-        // grains set off towards the centre with the walls (paper section 2.3: walls and particles move)
-        const test_plan defaults;
-        const double rate = defaults.packing_rate_before_contact * s.inertial_number *
-                            std::sqrt(s.confining.si() / sp.density) / s.grain.d50();
-        for (std::size_t b = 0; b < sp.body_count(); ++b) sp.shift(b, {}, -rate * sp.centre(b));
         return vessel;
     }
     /// Adds the grains of a packing, and returns a vessel that holds them.
