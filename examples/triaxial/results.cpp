@@ -171,6 +171,24 @@ std::vector<std::string> remarks(const summary_numbers& n) {
     return all;
 }
 
+preparation_numbers preparation_of(std::span<const clast::stage_record> stages, double confining) {
+    preparation_numbers n;
+    double largest = 0.0;
+    for (const clast::stage_record& s : stages) {
+        if (std::find(shear_stages.begin(), shear_stages.end(), s.name) != shear_stages.end()) break;
+        largest = std::max(largest, s.largest_p);
+        if (std::find(loading_stages.begin(), loading_stages.end(), s.name) != loading_stages.end()) {
+            n.at_stress = s;
+            continue;
+        }
+        n.friction = n.at_rest ? std::min(n.friction, s.friction) : s.friction;
+        n.at_rest = s;
+        n.largest_p_before_consolidation = std::max(n.largest_p_before_consolidation, s.largest_p);
+    }
+    n.overconsolidation_ratio = largest / confining;
+    return n;
+}
+
 result_folder::result_folder(const options& o) : options_(o), folder_(o.out) {
     std::error_code error;
     if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
@@ -311,10 +329,32 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
                      {"escaped", n.escaped}};
     j["overlap"] = {{"median_over_r", n.median_overlap_over_r}, {"max_over_r", n.max_overlap_over_r}};
     j["remarks"] = remarks(n);
+    if (const preparation_numbers p = preparation_of(facts.stages, options_.confining); p.at_rest || p.at_stress) {
+        j["preparation"] = {{"largest_p_before_consolidation_Pa", p.largest_p_before_consolidation},
+                            {"least_friction", p.friction},
+                            {"overconsolidation_ratio", p.overconsolidation_ratio}};
+        for (const auto& [name, s] : {std::pair{"at_rest", &p.at_rest}, std::pair{"at_confining_stress", &p.at_stress}})
+            if (*s)
+                j["preparation"][name] = {{"p_Pa", (*s)->p},
+                                          {"porosity", (*s)->porosity},
+                                          {"coordination", (*s)->coordination},
+                                          {"unbalanced_ratio", (*s)->unbalanced_ratio}};
+    }
     j["stages"] = json::array();
-    for (const stage_time& s : n.stages)
+    auto record = facts.stages.begin();
+    for (const stage_time& s : n.stages) {
         j["stages"].push_back(
             {{"name", s.name}, {"model_time_s", s.model_time}, {"steps", s.steps}, {"wall_time_s", s.wall_time}});
+        if (record == facts.stages.end() || record->name != s.name) continue;
+        json& one = j["stages"].back();
+        one["ended_by"] = record->end;
+        one["reached_its_condition"] = record->reached;
+        one["largest_p_Pa"] = record->largest_p;
+        one["least_friction"] = record->friction;
+        one["coordination_at_end"] = record->coordination;
+        one["porosity_at_end"] = record->porosity;
+        ++record;
+    }
     j["steps"] = n.steps;
     j["wall_time_s"] = n.wall_time;
     for (const auto& [name, value] : facts.more) j["more"][name] = value;
@@ -363,6 +403,12 @@ void result_folder::finish(const run_facts& facts) {
         fmt::print("  mean stress p'      {:8.3f} MPa, void ratio {:.3f}\n", rows_.back().p / 1e6,
                    rows_.back().void_ratio);
     }
+    if (const preparation_numbers p = preparation_of(facts.stages, options_.confining); p.at_rest && p.at_stress)
+        fmt::print(
+            "  preparation         {:8.3f} porosity at rest, {:.3f} at the confining stress; largest p before it "
+            "{:.2f} %, overconsolidation ratio {:.3f}\n",
+            p.at_rest->porosity, p.at_stress->porosity, 100 * p.largest_p_before_consolidation / options_.confining,
+            p.overconsolidation_ratio);
     fmt::print("  breakage            {:8} grains replaced, {} bonds broken ({} in tension, {} in shear)\n", n.replaced,
                n.broken_tension + n.broken_shear, n.broken_tension, n.broken_shear);
     if (n.sheared)
@@ -388,6 +434,8 @@ void result_folder::finish(const run_facts& facts) {
         fmt::print("  {:<40} {} figures (.svg and .png) and their gnuplot scripts\n", (folder_ / "plots").string(),
                    report.pictures.size() / 2);
     for (const std::string& remark : remarks(n)) fmt::print("{}\n", remark);
+    for (const clast::stage_record& s : facts.stages)
+        if (!s.reached) fmt::print("note: {}: {}\n", s.name, s.end);
     for (const std::string& problem : report.problems) fmt::print("note: {}\n", problem);
 }
 

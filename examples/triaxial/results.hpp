@@ -14,6 +14,7 @@
 #include <clast/io/csv.hpp>
 #include <clast/io/vtk.hpp>
 #include <clast/measure/sample.hpp>
+#include <clast/protocol/stage_record.hpp>
 
 #include "options.hpp"
 #include "plots.hpp"
@@ -35,8 +36,9 @@ struct run_facts {
     std::int64_t pebbles = 0;
     std::int64_t bonds_in_all_grains = 0; ///< if all of them became clusters
     int threads = 1;
-    std::string bundle;         ///< name of the policies
-    std::uint64_t checksum = 0; ///< of the final state
+    std::string bundle;                        ///< name of the policies
+    std::uint64_t checksum = 0;                ///< of the final state
+    std::vector<clast::stage_record> stages{}; ///< those that have ended
     std::vector<std::pair<std::string, double>>
         more; ///< further numbers by name with unit, e.g. {"grain_step_s", 1e-5}
 };
@@ -85,6 +87,16 @@ summary_numbers summarise(std::span<const clast::sample> rows);
 /// What should be known of a run before its numbers are used: sentences, with their weight in front ("note",
 /// "warning").
 std::vector<std::string> remarks(const summary_numbers& n);
+
+/// How the specimen was prepared, from the records of the stages before shear.
+struct preparation_numbers {
+    double largest_p_before_consolidation = 0.0;  ///< (Pa)
+    double overconsolidation_ratio = 0.0;         ///< largest p before shear over the confining stress; 1 is wanted
+    double friction = 0.0;                        ///< least between pebbles before consolidation
+    std::optional<clast::stage_record> at_rest;   ///< the last stage before consolidation: relax, or seat
+    std::optional<clast::stage_record> at_stress; ///< consolidation
+};
+preparation_numbers preparation_of(std::span<const clast::stage_record> stages, double confining);
 
 /// Names of the stages that count as shear, and as compression, in figures and summary.
 inline const std::vector<std::string> shear_stages{"shear", "unload"};

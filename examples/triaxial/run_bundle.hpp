@@ -67,6 +67,7 @@ template <class Test> class watcher : public clast::observer {
         if (!begins) save_due_ = true;
         if (!begins && name == options_.stop_after_stage) stop_ = true;
     }
+    void on_note(const std::string& text) override { bar_.note("note: " + text); }
     void on_progress(const clast::sample& s, double part, double) override {
         const std::string text = s.stage == "shear" || s.stage == "unload"
                                      ? fmt::format("eps_a {:5.2f} %", 100.0 * s.axial_strain)
@@ -238,6 +239,7 @@ template <class P> int run_bundle(const options& o, const char* name) {
                    .bundle = name,
                    // without the forces of the last step, which a finished run that is looked at again does not have
                    .checksum = clast::measure::digest_of_state(test.sim()),
+                   .stages = test.protocol().records(),
                    .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
                             {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
                             {"sub_steps_of_light_bodies", static_cast<double>(test.sim().light_steps())},

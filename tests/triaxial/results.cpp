@@ -188,6 +188,32 @@ TEST_CASE("deep overlaps are told, in the middle from a tenth of the radius on a
     REQUIRE(remarks(fine).empty());
 }
 
+namespace {
+
+/// Compaction that fell short, relaxation, consolidation that passed its stress by 1 %, and shear.
+std::vector<clast::stage_record> some_records() {
+    return {{"compact", "jammed short of 'target size'", false, 14e3, 13e3, 0.0, 4.3, 0.59, 0.1, 70000},
+            {"relax", "coordination < 1", true, 12e3, 2.0, 0.05, 0.9, 0.59, 30.0, 1100},
+            {"consolidate", "stress error < 0.1 %", true, 2.02e6, 1.999e6, 0.3, 5.2, 0.56, 5e-4, 40000},
+            {"shear", "axial strain 25 %", true, 3e6, 3e6, 0.3, 5.5, 0.55, 1e-3, 200000}};
+}
+
+} // namespace
+
+TEST_CASE("the preparation is what came before consolidation, overconsolidation what came before shear") {
+    const auto records = some_records();
+    preparation_numbers n = preparation_of(records, 2e6);
+    REQUIRE(n.largest_p_before_consolidation == 14e3);
+    REQUIRE(n.overconsolidation_ratio == Approx(1.01)); // not of the 3 MPa in shear
+    REQUIRE(n.friction == 0.0);
+    REQUIRE(n.at_rest->name == "relax");
+    REQUIRE(n.at_stress->porosity == 0.56);
+    n = preparation_of(std::span(records).first(2), 2e6);
+    REQUIRE(n.at_rest->porosity == 0.59);
+    REQUIRE_FALSE(n.at_stress.has_value());
+    REQUIRE_FALSE(preparation_of({}, 2e6).at_rest.has_value());
+}
+
 TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     const folder f;
     const options o = f.run();
@@ -197,7 +223,8 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     facts.grains = 50;
     facts.checksum = 0xabcULL;
     facts.more = {{"grain_step_s", 1e-5}};
-    const auto rows = some_rows();
+    facts.stages = some_records();
+    facts.stages.erase(facts.stages.begin(), facts.stages.begin() + 2); // rows begin with the consolidation
     r.finish(facts);
     const auto j = nlohmann::json::parse(text_of(o.out / "summary.json"));
     REQUIRE(j["inputs"]["shape"] == "4B");
@@ -208,6 +235,15 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     REQUIRE(j["overlap"]["max_over_r"] == 0.0);
     REQUIRE(j["remarks"].empty());
     REQUIRE(j["stages"].size() == 2);
+    REQUIRE(j["stages"][0]["ended_by"] == "stress error < 0.1 %");
+    REQUIRE(j["stages"][0]["reached_its_condition"] == true);
+    REQUIRE(j["stages"][0]["largest_p_Pa"] == 2.02e6);
+    REQUIRE(j["stages"][0]["least_friction"] == 0.3);
+    REQUIRE(j["stages"][1]["ended_by"] == "axial strain 25 %");
+    REQUIRE(j["stages"][1]["coordination_at_end"] == 5.5);
+    REQUIRE(j["preparation"]["overconsolidation_ratio"].get<double>() == Approx(1.01));
+    REQUIRE(j["preparation"]["at_confining_stress"]["porosity"] == 0.56);
+    REQUIRE_FALSE(j["preparation"].contains("at_rest"));
     REQUIRE(j["more"]["grain_step_s"] == 1e-5);
     REQUIRE(j["final_state_checksum"] == "0000000000000abc");
     REQUIRE(j["machine"].contains("cpu"));
