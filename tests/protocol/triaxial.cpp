@@ -134,12 +134,27 @@ TEST_CASE("the stages of the paper come in their order, the membrane with the co
     CHECK(s[0].lateral.value == Approx(0.15));
     CHECK_FALSE(s[0].breakage);
     CHECK(s[3].membrane_here);
+    CHECK(s[3].walls_at_rest);
     CHECK(s[3].breakage);
     CHECK(s[4].reference_here);
     CHECK(s[4].lateral.how == axis_drive::kind::stress);
     CHECK(s[4].lateral.value == Approx(2e6));
     CHECK(s[4].axial.value == 1e-4);
     CHECK(protocol::unloading(2_MPa, 10_kPa).axial.value < 0.0);
+}
+
+TEST_CASE("consolidation keeps to the paper's inertial numbers, or to that of a shear that is faster") {
+    const auto numbers = [](double shear) {
+        setup_type s = good();
+        s.inertial_number = shear;
+        const triaxial_test<rigid> test(s, protocol::preparation());
+        const test_plan& p = test.protocol().plan;
+        return std::pair(p.consolidation_inertial_number, p.final_inertial_number);
+    };
+    CHECK(numbers(1e-5) == std::pair(1e-3, 1e-4));
+    CHECK(numbers(1e-4) == std::pair(1e-3, 1e-4));
+    CHECK(numbers(5e-4) == std::pair(1e-3, 5e-4));
+    CHECK(numbers(5e-3) == std::pair(5e-3, 5e-3));
 }
 
 TEST_CASE("stages take sizes, stress and inertial number from the setup, or are compared with it") {

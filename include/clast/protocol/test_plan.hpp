@@ -28,7 +28,7 @@ struct test_plan {
     double packing_rate_before_contact = 10.0; ///< times the shear rate, while hardly any grain touches another
     /// Below this inertial number at the stress at which walls give way, a specimen that is being compacted has jammed.
     double jammed_inertial_number = 5e-4;
-    double consolidation_inertial_number = 1e-3; ///< of walls in consolidation, or that of shear where it is larger
+    double consolidation_inertial_number = 1e-3; ///< largest of walls in consolidation, once a network carries
     double final_inertial_number = 1e-4;         ///< the same over the last part of the stress
     double consolidation_floor = 0.05;           ///< least p' in these numbers, in parts of the confining stress
     double final_share = 0.8;                    ///< part of the confining stress at which the last part begins

@@ -145,7 +145,7 @@ class wall_speed {
         const double p = std::max(now.p, plan_->consolidation_floor * plan_->confining);
         const bool last = now.p + std::max(0.0, now.p - last_p_) > plan_->final_share * plan_->confining;
         const double i = last ? plan_->final_inertial_number : plan_->consolidation_inertial_number;
-        return rate_at(std::max(i, plan_->inertial_number), p);
+        return rate_at(i, p);
     }
     boundaries::drive one(const axis_drive& a, const stage& s, const wall_view& now, std::size_t axis, double share,
                           double servo) {
