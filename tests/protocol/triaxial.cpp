@@ -135,6 +135,7 @@ TEST_CASE("the stages of the paper come in their order, the membrane with the co
     CHECK_FALSE(s[0].breakage);
     CHECK(s[3].membrane_here);
     CHECK(s[3].walls_at_rest);
+    CHECK(s[3].ends_at_standstill);
     CHECK(s[3].breakage);
     CHECK(s[4].reference_here);
     CHECK(s[4].lateral.how == axis_drive::kind::stress);

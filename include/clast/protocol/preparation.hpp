@@ -105,6 +105,7 @@ inline std::vector<stage> preparation() {
                  .breakage = false,
                  .yields_at = 0.5 * rest,
                  .yields_back = true,
+                 .ends_at_standstill = true,
                  .skip_if_relaxed = true,
                  .if_stuck = "The specimen does not come to rest under a small stress: raise the porosity."});
     return s;

@@ -28,6 +28,7 @@
 #include <clast/protocol/preparation.hpp>
 #include <clast/protocol/stage.hpp>
 #include <clast/protocol/stage_record.hpp>
+#include <clast/protocol/standstill.hpp>
 #include <clast/protocol/test_plan.hpp>
 #include <clast/protocol/vessel.hpp>
 #include <clast/protocol/wall_speed.hpp>
@@ -156,7 +157,7 @@ template <class P> class runner {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
           reference_height_, reference_volume_, reference_, speed_, error_sum_, error_count_, next_row_, row_start_,
-          wall_time_, record_, records_, tries_, view_, memory_);
+          wall_time_, record_, records_, tries_, still_, view_, memory_);
         if constexpr (A::reading)
             if (begun_ && (finished() || memory_.size() != current().end.memory))
                 throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
@@ -212,6 +213,7 @@ template <class P> class runner {
         row_start_ = axial_strain();
         protocol::check_direction(s, row_start_);
         next_row_ = 1;
+        still_ = {};
         view_ = {};
         memory_.assign(s.end.memory, 0.0);
         look(true);
@@ -258,19 +260,25 @@ template <class P> class runner {
                 return;
             }
         }
-        if (stage_steps_ >= s.most_steps) fail();
+        if (s.ends_at_standstill && still_.look(view_, sim.boundary.volume())) {
+            if (!protocol::nearly_there(view_)) fail(still_.text());
+            end_stage(watch, false,
+                      fmt::format("{}, short of '{}' ({})", still_.text(), s.end.text, protocol::errors_of(view_)));
+        } else if (stage_steps_ >= s.most_steps) {
+            fail({});
+        }
     }
-    [[noreturn]] void fail() const {
+    /// still: that nothing changes any more, or nothing.
+    [[noreturn]] void fail(const std::string& still) const {
         const stage& s = current();
         const sample now = measure();
-        throw run_error(
-            {fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
-             fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps), when(),
-             fmt::format("unbalanced ratio {:.3g}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa), stress "
-                         "errors {:.3g} (axial) and {:.3g} (confining)",
-                         now.unbalanced_ratio, 1e-3 * now.q, 1e-3 * now.p, 1e-3 * view_.sphere_stress,
-                         view_.axial_error, view_.confining_error),
-             s.if_stuck});
+        throw run_error({fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
+                         fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps),
+                         when(),
+                         fmt::format("{}{}{}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa)", still,
+                                     still.empty() ? "" : "; ", protocol::errors_of(view_), 1e-3 * now.q, 1e-3 * now.p,
+                                     1e-3 * view_.sphere_stress),
+                         s.if_stuck});
     }
 
     std::string when() const {
@@ -397,6 +405,7 @@ template <class P> class runner {
     double reference_height_ = 0.0, reference_volume_ = 0.0;
     std::vector<vec3> reference_;
     protocol::wall_speed speed_;
+    protocol::standstill still_;
     stage_record record_;               ///< of the running stage
     std::vector<stage_record> records_; ///< of those that have ended
     double error_sum_ = 0.0;

@@ -306,6 +306,9 @@ struct stage {
     /// Frictions to try where the specimen has come to rest, or jammed, short of `end`: from the first that is below
     /// the present one on, one after the other.
     std::vector<double> then_friction{};
+    /// Ends, short of `end` and saying so, where nothing changes any more while stresses and forces are within 1 %;
+    /// where they are not, the run stops with an error.
+    bool ends_at_standstill = false;
     bool give_up_gently = false;  ///< having tried all, go on with the next stage instead of stopping
     bool skip_if_relaxed = false; ///< leave out where the stage before reached its end by itself
     std::string if_stuck = "Raise `most_steps`, or loosen the condition."; ///< advice where it does not end
