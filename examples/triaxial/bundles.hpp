@@ -3,6 +3,8 @@
 // data. Each is instantiated in its own file (bundle_*.cpp), so that they compile side by side.
 #pragma once
 
+#include <clast/boundaries/rigid_cylinder.hpp>
+#include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/tiles.hpp>
 #include <clast/criteria/none.hpp>
@@ -27,6 +29,18 @@ struct solid_modified : tiles_modified {
 struct solid_unbreakable : tiles_unbreakable {
     using boundary = clast::boundaries::solid_strips;
 };
+struct rings_modified : tiles_modified {
+    using boundary = clast::boundaries::ring_walls;
+};
+struct rings_unbreakable : tiles_unbreakable {
+    using boundary = clast::boundaries::ring_walls;
+};
+struct rigid_modified : tiles_modified {
+    using boundary = clast::boundaries::rigid_cylinder;
+};
+struct rigid_unbreakable : tiles_unbreakable {
+    using boundary = clast::boundaries::rigid_cylinder;
+};
 
 } // namespace triaxial
 
@@ -34,3 +48,7 @@ extern template class clast::triaxial_test<triaxial::tiles_modified>;
 extern template class clast::triaxial_test<triaxial::tiles_unbreakable>;
 extern template class clast::triaxial_test<triaxial::solid_modified>;
 extern template class clast::triaxial_test<triaxial::solid_unbreakable>;
+extern template class clast::triaxial_test<triaxial::rings_modified>;
+extern template class clast::triaxial_test<triaxial::rings_unbreakable>;
+extern template class clast::triaxial_test<triaxial::rigid_modified>;
+extern template class clast::triaxial_test<triaxial::rigid_unbreakable>;

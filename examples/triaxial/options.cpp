@@ -109,7 +109,9 @@ void declare(CLI::App& app, raw& r) {
         "spheres",
         "a cloud");
     add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");
-    add("--membrane", r.membrane, "NAME", "lateral boundary: tiles, or solid (strips that move as one)", "tiles");
+    add("--membrane", r.membrane, "NAME",
+        "lateral boundary: tiles (each on its own), rings, solid (strips that move as one), rigid (a round cylinder)",
+        "tiles");
     add("--rings", r.rings, "N", "rings of tiles over the height (V_sec)", "36 * scale");
     add("--tiles-per-ring", r.tiles, "N", "tiles, or strips, around the specimen (H_part)", "20 * scale, at least 10");
     add("--confining", r.confining, "STRESS", "confining stress in Pa, kPa, MPa or GPa", "2MPa");
@@ -187,7 +189,7 @@ bool allowed_with_resume(const std::string& name) {
 }
 
 void read_tiles(options& o, const raw& r) {
-    const bool solid = o.membrane == "solid";
+    const bool solid = o.membrane == "solid" || o.membrane == "rigid";
     const clast::grain_sizes grains = sizes_of(o);
     // about as high as the paper's tiles, and none lower than a pebble
     const int high_enough = static_cast<int>(o.height() / (2.0 * grains.largest_radius) * (1.0 + 1e-9));
@@ -195,7 +197,7 @@ void read_tiles(options& o, const raw& r) {
     if (!r.rings.empty())
         o.rings = whole_number(r.rings, "--rings", 1, 1000, "The paper uses 12, 24 and 36 at scale 1.");
     if (solid && o.rings != 1)
-        throw input_error("--rings", r.rings, "1 with --membrane solid, which is rigid over its height",
+        throw input_error("--rings", r.rings, "1 with --membrane " + o.membrane + ", which is rigid over its height",
                           "Leave --rings out, or use --membrane tiles.");
 
     if (!r.tiles.empty()) {
@@ -274,7 +276,7 @@ options checked_options(const raw& r) {
     if (o.shape == "4b" || o.shape == "14b") o.shape.back() = 'B';
     o.grading = r.grading, o.packing = r.packing;
     choose(o.strength, r.strength, "--strength", {"weak", "medium", "strong"});
-    choose(o.membrane, r.membrane, "--membrane", {"tiles", "solid"});
+    choose(o.membrane, r.membrane, "--membrane", {"tiles", "rings", "solid", "rigid"});
     choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload"});
     choose(o.criterion, r.criterion, "--criterion",
            {"nominal_force", "hertz_literal", "hertz_calibrated", "octahedral", "mean", "major_principal", "none"});

@@ -8,15 +8,28 @@ namespace triaxial {
 
 extern template int run_bundle<tiles_modified>(const options&, const char*);
 extern template int run_bundle<tiles_unbreakable>(const options&, const char*);
+extern template int run_bundle<rings_modified>(const options&, const char*);
+extern template int run_bundle<rings_unbreakable>(const options&, const char*);
 extern template int run_bundle<solid_modified>(const options&, const char*);
 extern template int run_bundle<solid_unbreakable>(const options&, const char*);
+extern template int run_bundle<rigid_modified>(const options&, const char*);
+extern template int run_bundle<rigid_unbreakable>(const options&, const char*);
+
+namespace {
+
+/// One of the two bundles of a membrane.
+template <class Modified, class Unbreakable> int run_either(const options& o) {
+    return o.breakable() ? run_bundle<Modified>(o, (o.membrane + "_modified").c_str())
+                         : run_bundle<Unbreakable>(o, (o.membrane + "_unbreakable").c_str());
+}
+
+} // namespace
 
 int run_test(const options& o) {
-    if (o.membrane == "solid")
-        return o.breakable() ? run_bundle<solid_modified>(o, "solid_modified")
-                             : run_bundle<solid_unbreakable>(o, "solid_unbreakable");
-    return o.breakable() ? run_bundle<tiles_modified>(o, "tiles_modified")
-                         : run_bundle<tiles_unbreakable>(o, "tiles_unbreakable");
+    if (o.membrane == "rings") return run_either<rings_modified, rings_unbreakable>(o);
+    if (o.membrane == "solid") return run_either<solid_modified, solid_unbreakable>(o);
+    if (o.membrane == "rigid") return run_either<rigid_modified, rigid_unbreakable>(o);
+    return run_either<tiles_modified, tiles_unbreakable>(o);
 }
 
 } // namespace triaxial

@@ -227,8 +227,9 @@ template <class P> int run_bundle(const options& o, const char* name) {
                    folder.path().string());
         return requested_stop() != 0 ? 128 + requested_stop() : 0;
     }
-    watch.save(); // so that a finished run can be looked at again
-    const auto& counters = test.sim().boundary.counters();
+    watch.save();                                  // so that a finished run can be looked at again
+    clast::boundaries::boundary_counters counters; // of walls that have any
+    if constexpr (requires { test.sim().boundary.counters(); }) counters = test.sim().boundary.counters();
     std::int64_t bonds_in_all_grains = 0;
     for (const clast::grain& g : test.sim().grains.grains)
         bonds_in_all_grains += static_cast<std::int64_t>(test.sim().grains.shape_of(g).bonds.size());
