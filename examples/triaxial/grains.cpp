@@ -85,6 +85,7 @@ std::vector<fs::path> input_files(const options& o) {
         if (s.is_file()) files.emplace_back(s.name);
     if (!o.grading.empty()) files.emplace_back(o.grading);
     if (!o.packing.empty()) files.emplace_back(o.packing);
+    if (!o.from.empty()) files.emplace_back(o.from);
     return files;
 }
 
@@ -96,6 +97,7 @@ options with_files_in(options o, const fs::path& folder) {
     o.shape = joined_shapes(shapes);
     if (!o.grading.empty()) o.grading = there(o.grading);
     if (!o.packing.empty()) o.packing = there(o.packing);
+    if (!o.from.empty()) o.from = there(o.from);
     return o;
 }
 
@@ -190,6 +192,7 @@ std::string grains_text(const options& o) {
     std::string text = fmt::format("shape = {}\n", shapes);
     if (!o.grading.empty()) text += fmt::format("grading = {}\n", known(fs::path(o.grading).stem().string()));
     if (!o.packing.empty()) text += fmt::format("packing = {}\n", known(fs::path(o.packing).stem().string()));
+    if (!o.from.empty()) text += fmt::format("prepared specimen = {}\n", known(fs::path(o.from).stem().string()));
     return text;
 }
 

@@ -15,7 +15,7 @@ namespace triaxial {
 
 inline constexpr const char* input_folder = "input"; ///< in the folder of results: copies of the files below
 
-/// Files that --shape, --grading and --packing name.
+/// Files that --shape, --grading, --packing and --from name.
 std::vector<std::filesystem::path> input_files(const options& o);
 
 /// The same options with these files in another folder (relative to nothing, or absolute).

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <system_error>
@@ -34,9 +35,10 @@ constexpr double largest_scale = 2.0;
 
 /// What was typed; empty where the option was not given.
 struct raw {
-    std::string shape, grading, packing, strength, membrane, rings, tiles, confining, scale, strain, inertial_number,
-        criterion, weibull, replacement, birth, bond_stiffness, friction, platen_friction, membrane_friction, damping,
-        seed, threads, out, resume, save_every, snapshots, rows, stop_after, protocol, preset;
+    std::string shape, grading, packing, from, porosity, strength, membrane, rings, tiles, confining, scale, strain,
+        inertial_number, criterion, weibull, replacement, birth, bond_stiffness, friction, platen_friction,
+        membrane_friction, damping, seed, threads, out, resume, save_every, snapshots, rows, stop_after, protocol,
+        preset;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -108,6 +110,14 @@ void declare(CLI::App& app, raw& r) {
         "where grains start: packing.csv of another run\n(repeat its --shape and --scale), or lines 'x y z d' (m) for "
         "spheres",
         "a cloud");
+    add("--porosity", r.porosity, "N",
+        "of the specimen as prepared, 0.3 to 0.9, loose to dense; friction is lowered\nfor it while grains are packed",
+        "0.58");
+    add("--from", r.from, "DIR",
+        "starts with the specimen that another run has prepared (its --shape, --grading,\n--scale, --porosity, "
+        "--seed), at "
+        "its consolidation",
+        "prepare one");
     add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");
     add("--membrane", r.membrane, "NAME",
         "lateral boundary: tiles (each on its own), rings, solid (strips that move as one), rigid (a round cylinder)",
@@ -117,7 +127,9 @@ void declare(CLI::App& app, raw& r) {
     add("--confining", r.confining, "STRESS", "confining stress in Pa, kPa, MPa or GPa", "2MPa");
     add("--scale", r.scale, "S", "size of the specimen: 1 is 30 cm x 70 cm; grains stay 2 cm", "0.4");
     add("--strain", r.strain, "STRAIN", "axial strain at the end of shear, 25% or 0.25", "25%");
-    add("--protocol", r.protocol, "NAME", "triaxial, isotropic (no shear), unload (shear, then back to q = 0)",
+    add("--protocol", r.protocol, "NAME",
+        "triaxial, isotropic (no shear), unload (shear, then back to q = 0),\nprepare (no consolidation: a specimen "
+        "for --from)",
         "triaxial");
     add("--inertial-number", r.inertial_number, "I", "limit of the inertial number in shear", "1e-4");
     add("--friction", r.friction, "MU", "friction coefficient between grains", "0.3");
@@ -274,10 +286,10 @@ options checked_options(const raw& r) {
     options o;
     if (!r.shape.empty()) o.shape = r.shape;
     if (o.shape == "4b" || o.shape == "14b") o.shape.back() = 'B';
-    o.grading = r.grading, o.packing = r.packing;
+    o.grading = r.grading, o.packing = r.packing, o.from = r.from;
     choose(o.strength, r.strength, "--strength", {"weak", "medium", "strong"});
     choose(o.membrane, r.membrane, "--membrane", {"tiles", "rings", "solid", "rigid"});
-    choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload"});
+    choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload", "prepare"});
     choose(o.criterion, r.criterion, "--criterion",
            {"nominal_force", "hertz_literal", "hertz_calibrated", "octahedral", "mean", "major_principal", "none"});
     choose(o.replacement, r.replacement, "--replacement", {"modified", "none"});
@@ -290,6 +302,12 @@ options checked_options(const raw& r) {
         o.scale = checked<quantities::ratio>(r.scale, "--scale", smallest_scale, largest_scale, true,
                                              fmt::format("{:g} to {:g}", smallest_scale, largest_scale),
                                              "1 is the specimen of the paper, 0.4 a quick test.");
+    if (!r.porosity.empty())
+        o.porosity = checked<quantities::ratio>(r.porosity, "--porosity", 0.3, 0.9, true, "0.3 to 0.9",
+                                                "The paper uses 0.58; what is too dense for the grains is said.");
+    if (!o.from.empty() && o.protocol == "prepare")
+        throw input_error("--protocol", "prepare", "another one with --from, which is prepared already",
+                          "Leave one of the two out.");
     if (!r.strain.empty())
         o.strain = checked<quantities::ratio>(r.strain, "--strain", 0.0, 0.5, false, "more than 0, up to 50%",
                                               "The paper goes to 25%; 25 without % would be 2500 %.");
@@ -328,6 +346,61 @@ options checked_options(const raw& r) {
     return o;
 }
 
+/// Arguments of an earlier run in a folder; copies of its files are in that folder, wherever that is now. option: which
+/// one names it.
+std::vector<std::string> stored_arguments(const fs::path& folder, const char* option) {
+    std::ifstream file(folder / arguments_file);
+    if (!file)
+        throw input_error(option, folder.string(), "the folder of an earlier run (--out)",
+                          fmt::format("There is no '{}' in it.", arguments_file));
+    std::vector<std::string> stored;
+    for (std::string line; std::getline(file, line);)
+        if (!line.empty()) stored.push_back(line);
+    for (std::string& a : stored)
+        if (a.starts_with("--shape=") || a.starts_with("--grading=") || a.starts_with("--packing=") ||
+            a.starts_with("--from=")) {
+            const std::string own = std::string(input_folder) + "/", there = (folder / input_folder).string() + "/";
+            for (std::size_t at = a.find(own); at != std::string::npos; at = a.find(own, at + there.size())) {
+                if (a[at - 1] == '=' || a[at - 1] == ',') a.replace(at, own.size(), there);
+            }
+        }
+    return stored;
+}
+
+/// What --from takes over from the run that prepared the specimen: its grains and sizes. Throws input_error where the
+/// command line says another thing. `--from` becomes the path of the specimen itself.
+void take_from(raw& r) {
+    const fs::path folder = r.from;
+    std::error_code none;
+    if (!fs::is_directory(folder, none)) return; // of a run that is resumed: everything has been said
+    if (!fs::exists(folder / prepared_file, none))
+        throw input_error("--from", r.from, "the folder of a run that has prepared a specimen",
+                          fmt::format("There is no '{}' in it: run --protocol prepare first.", prepared_file));
+    const std::vector<std::string> stored = stored_arguments(folder, "--from");
+    for (const auto& [name, mine] : {std::pair<std::string, std::string*>{"--shape", &r.shape},
+                                     {"--grading", &r.grading},
+                                     {"--packing", &r.packing},
+                                     {"--scale", &r.scale},
+                                     {"--porosity", &r.porosity},
+                                     {"--seed", &r.seed}}) {
+        std::string theirs;
+        for (const std::string& a : stored)
+            if (a.starts_with(name + "=")) theirs = a.substr(name.size() + 1);
+        const auto number = [](const std::string& text) {
+            const auto parts = clast::detail::split_number(text);
+            return !parts                ? std::numeric_limits<double>::quiet_NaN()
+                   : parts->unit == "%"  ? 0.01 * parts->number
+                   : parts->unit.empty() ? parts->number
+                                         : std::numeric_limits<double>::quiet_NaN();
+        };
+        if (!mine->empty() && *mine != theirs && !(number(*mine) == number(theirs)))
+            throw input_error(name, *mine, theirs.empty() ? "nothing" : theirs,
+                              fmt::format("Leave it out: '{}' was prepared with it.", r.from));
+        *mine = theirs;
+    }
+    r.from = (folder / prepared_file).string();
+}
+
 options resumed_options(const CLI::App& app, const raw& r) {
     for (const CLI::Option* given : app.get_options()) {
         // get_name() is empty for options that --help does not list
@@ -339,21 +412,7 @@ options resumed_options(const CLI::App& app, const raw& r) {
                 name, r.resume));
     }
     const fs::path folder = r.resume;
-    std::ifstream file(folder / arguments_file);
-    if (!file)
-        throw input_error("--resume", r.resume, "the folder of an earlier run (--out)",
-                          fmt::format("There is no '{}' in it.", arguments_file));
-    std::vector<std::string> stored;
-    for (std::string line; std::getline(file, line);)
-        if (!line.empty()) stored.push_back(line);
-    // copies of files are in the folder, wherever that is now
-    for (std::string& a : stored)
-        if (a.starts_with("--shape=") || a.starts_with("--grading=") || a.starts_with("--packing=")) {
-            const std::string own = std::string(input_folder) + "/", there = (folder / input_folder).string() + "/";
-            for (std::size_t at = a.find(own); at != std::string::npos; at = a.find(own, at + there.size())) {
-                if (a[at - 1] == '=' || a[at - 1] == ',') a.replace(at, own.size(), there);
-            }
-        }
+    const std::vector<std::string> stored = stored_arguments(folder, "--resume");
     options o;
     try {
         o = parse_options(stored).values;
@@ -407,6 +466,7 @@ parsed parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         explain(app, error, arguments);
     }
+    if (!r.from.empty()) take_from(r);
     if (r.version) {
         fmt::print("clast {}\n", clast::version());
         return {{}, true};
@@ -428,6 +488,7 @@ std::string physics_text(const options& o) {
         text += fmt::format("{} = {}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
     };
     text += grains_text(o);
+    line("porosity", o.porosity);
     line("strength", o.strength);
     line("membrane", o.membrane);
     line("rings", o.rings);
@@ -461,6 +522,8 @@ std::vector<std::string> to_arguments(const options& o) {
     add("shape", o.shape);
     if (!o.grading.empty()) add("grading", o.grading);
     if (!o.packing.empty()) add("packing", o.packing);
+    if (!o.from.empty()) add("from", o.from);
+    add("porosity", o.porosity);
     add("strength", o.strength);
     add("membrane", o.membrane);
     add("rings", o.rings);

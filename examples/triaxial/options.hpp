@@ -37,6 +37,8 @@ struct options {
     std::string shape = "4B"; ///< "4B", "14B", "sphere" or the path of a file; several as in "14B:0.7,4B:0.3"
     std::string grading;      ///< path of a sieve curve; empty: all grains have 2 cm
     std::string packing;      ///< path of a packing; empty: a cloud
+    std::string from;         ///< path of a prepared specimen (prepared_file); empty: it is prepared
+    double porosity = 0.58;   ///< as prepared
     std::vector<std::uint64_t> checksums{}; ///< of the files above (input_files)
     std::string strength = "weak";          ///< name of a strength class
     std::string membrane = "tiles";         ///< "solid" or "tiles"
@@ -45,7 +47,7 @@ struct options {
     double confining = 2e6;                 ///< (Pa)
     double scale = 0.4;                     ///< 1 is 30 x 70 cm
     double strain = 0.25;                   ///< axial strain at the end of shear
-    std::string protocol = "triaxial";      ///< "triaxial", "isotropic" or "unload"
+    std::string protocol = "triaxial";      ///< "triaxial", "isotropic", "unload" or "prepare"
     double inertial_number = 1e-4;          ///< limit in shear
     double friction = 0.3;                  ///< between pebbles
     double platen_friction = 0.0;           ///< of the platens
@@ -93,6 +95,7 @@ std::string physics_text(const options& o);
 /// Command-line arguments that reproduce the run; stored with its results as `arguments_file`, one per line.
 std::vector<std::string> to_arguments(const options& o);
 inline constexpr const char* arguments_file = "arguments.txt";
+inline constexpr const char* prepared_file = "prepared.clast"; ///< the specimen as prepared, for --from
 
 /// "2MPa", "150kPa": short text of a stress (Pa).
 std::string stress_text(double pascal);

@@ -30,7 +30,7 @@ namespace {
 
 // What a run writes; nothing else in the folder is ever touched.
 constexpr std::array own_files{"series.csv", "events.csv", "summary.json", "checkpoint.clast", arguments_file,
-                               "vtk",        "plots",      input_folder,   "packing.csv"};
+                               "vtk",        "plots",      input_folder,   "packing.csv",      prepared_file};
 
 bool is_shear(const sample& s) {
     return std::find(shear_stages.begin(), shear_stages.end(), s.stage) != shear_stages.end();
@@ -422,12 +422,14 @@ void result_folder::finish(const run_facts& facts) {
         fmt::print("  {:<20}{:8} steps, {:.3f} s of model time, {}\n", s.name, s.steps, s.model_time,
                    time_text(s.wall_time));
     fmt::print("\nresults\n");
-    for (const auto& [name, text] : {std::pair{"summary.json", "the numbers above and all inputs"},
-                                     {"series.csv", "stress, strain, volume, energies: a row per sample"},
-                                     {"events.csv", "a row per broken bond"},
-                                     {"packing.csv", "the grains as prepared, for --packing of other runs"},
-                                     {"vtk/pebbles.pvd", "grains for ParaView"},
-                                     {"vtk/boundary.pvd", "membrane and platens for ParaView"}})
+    for (const auto& [name, text] :
+         {std::pair{"summary.json", "the numbers above and all inputs"},
+          {"series.csv", "stress, strain, volume, energies: a row per sample"},
+          {"events.csv", "a row per broken bond"},
+          {prepared_file, "the specimen as prepared, for --from of other runs: other membrane, strength, stress"},
+          {"packing.csv", "the grains as prepared, for --packing of other runs"},
+          {"vtk/pebbles.pvd", "grains for ParaView"},
+          {"vtk/boundary.pvd", "membrane and platens for ParaView"}})
         if (std::error_code none; fs::exists(folder_ / name, none))
             fmt::print("  {:<40} {}\n", (folder_ / name).string(), text);
     if (!report.pictures.empty())

@@ -37,6 +37,8 @@ template <class Test> struct saved_run {
     }
 };
 
+inline constexpr const char* prepared_fingerprint = "prepared specimen";
+
 /// Passes rows, events, snapshots and checkpoints on to the folder of results.
 template <class Test> class watcher : public clast::observer {
   public:
@@ -57,7 +59,7 @@ template <class Test> class watcher : public clast::observer {
     void on_stage(const std::string& name, bool begins) override {
         if (begins && !options_.quiet) bar_.note(fmt::format("{}: until {}", name, end_of(name)));
         // the specimen as prepared: another run may start from it, whatever its membrane
-        if (name == "consolidate" && begins) clast::write_packing(folder_.path() / "packing.csv", test_.sim().grains);
+        if (name == "consolidate" && begins) write_prepared();
         if (name == "shear" && begins) {
             folder_.start_of_shear(view());
             next_snapshot_ = 1;
@@ -86,6 +88,12 @@ template <class Test> class watcher : public clast::observer {
     }
     bool stop_requested() override { return stop_; }
 
+    /// The specimen as prepared, for --from and --packing of other runs.
+    void write_prepared() {
+        clast::write_packing(folder_.path() / "packing.csv", test_.sim().grains);
+        clast::prepared_specimen specimen = test_.protocol().prepared();
+        clast::save_checkpoint(folder_.path() / prepared_file, prepared_fingerprint, specimen);
+    }
     void save() {
         saved_run<Test> state{&test_, folder_.position()};
         clast::save_checkpoint(folder_.checkpoint(), fingerprint_, state);
@@ -140,6 +148,7 @@ inline std::vector<clast::stage> stages_of(const options& o) {
     const quantities::length diameter{o.diameter()}, height{o.height()};
     const quantities::stress confining{o.confining};
     std::vector<stage> s = protocol::preparation(diameter, height);
+    if (o.protocol == "prepare") return s;
     s.push_back(protocol::consolidation(confining));
     if (o.protocol == "isotropic") return s;
     s.push_back(protocol::shear(confining, quantities::ratio{o.strain}, o.inertial_number));
@@ -186,6 +195,7 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
             .breakage = std::move(breakage),
             .replacement = std::move(replacement),
             .packing = std::move(packing),
+            .porosity = o.porosity,
             .rings = std::max(o.rings, 1),
             .tiles_per_ring = o.tiles_per_ring,
             .materials = materials,
@@ -202,6 +212,11 @@ template <class P> int run_bundle(const options& o, const char* name) {
     test_type test(setup_of<P>(o), stages_of(o));
     saved_run<test_type> state{&test, {}};
     if (o.resume) clast::load_checkpoint(o.out / "checkpoint.clast", fingerprint, state);
+    if (!o.from.empty() && !o.resume) {
+        clast::prepared_specimen specimen;
+        clast::load_checkpoint(o.from, prepared_fingerprint, specimen);
+        test.protocol().take_over(specimen);
+    }
     result_folder folder = o.resume ? result_folder(o, state.at) : result_folder(o);
     watcher<test_type> watch(o, test, folder, fingerprint);
     if (!o.quiet)
@@ -227,6 +242,7 @@ template <class P> int run_bundle(const options& o, const char* name) {
                    folder.path().string());
         return requested_stop() != 0 ? 128 + requested_stop() : 0;
     }
+    if (o.protocol == "prepare") watch.write_prepared();
     watch.save();                                  // so that a finished run can be looked at again
     clast::boundaries::boundary_counters counters; // of walls that have any
     if constexpr (requires { test.sim().boundary.counters(); }) counters = test.sim().boundary.counters();

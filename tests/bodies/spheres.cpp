@@ -85,3 +85,12 @@ TEST_CASE("a sphere whose inverse inertia is 0 does not turn, and has the energy
     s.set_spin(0, {1.0, 0.0, 0.0}); // it would take infinite energy, so there is none
     CHECK(s.kinetic_energy(0) == Approx(energy));
 }
+
+TEST_CASE("a sphere is put elsewhere as it is, whatever the orientation") {
+    bodies::spheres s;
+    s.add({1.0, 2.0, 3.0}, 0.01);
+    s.set_velocity(0, {4.0, 5.0, 6.0});
+    s.set_place(0, {-1.0, -2.0, -3.0}, {0.5, 0.5, 0.5, 0.5});
+    CHECK(s.centre(0) == vec3{-1.0, -2.0, -3.0});
+    CHECK(s.velocity(0) == vec3{4.0, 5.0, 6.0});
+}

@@ -169,3 +169,42 @@ TEST_CASE("the table of the paper names every decision once it matters") {
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
         REQUIRE(end - at <= 112);
 }
+
+TEST_CASE("porosity is a target between loose and dense, part of what decides the results") {
+    REQUIRE(read({}).porosity == 0.58);
+    REQUIRE(read({"--porosity", "62%"}).porosity == Approx(0.62));
+    REQUIRE(has(refusal({"--porosity", "0.2"}), "0.3 to 0.9"));
+    REQUIRE(has(physics_text(read({"--porosity", "0.5"})), "porosity = 0.5\n"));
+    REQUIRE(read(to_arguments(read({"--porosity", "0.5"}))).porosity == 0.5);
+}
+
+TEST_CASE("a specimen of another run brings its grains, size, porosity and seed, which may not be contradicted") {
+    const fs::path place = fs::temp_directory_path() / fmt::format("clast_from_{}", ::getpid());
+    fs::create_directories(place);
+    REQUIRE(has(refusal({"--from", place.string()}), "--protocol prepare"));
+    std::ofstream(place / prepared_file) << "grains";
+    REQUIRE(has(refusal({"--from", place.string()}), arguments_file));
+    {
+        std::ofstream file(place / arguments_file);
+        for (const std::string& a : to_arguments(read({"--shape", "14B", "--scale", "0.3", "--porosity", "0.6",
+                                                       "--seed", "7", "--protocol", "prepare", "--friction", "0.2"})))
+            file << a << '\n';
+    }
+    const options o = read({"--from", place.string(), "--membrane", "solid", "--confining", "1MPa"});
+    REQUIRE(o.shape == "14B");
+    REQUIRE(o.scale == 0.3);
+    REQUIRE(o.porosity == 0.6);
+    REQUIRE(o.seed == 7);
+    REQUIRE(o.protocol == "triaxial"); // what is done with it is not taken over
+    REQUIRE(o.friction == 0.3);
+    REQUIRE(o.from == (place / prepared_file).string());
+    REQUIRE(o.checksums.size() == 1);
+    REQUIRE(has(physics_text(o), "prepared specimen = prepared (checksum"));
+    REQUIRE(read(to_arguments(o)).from == o.from); // by the file itself
+    REQUIRE(read({"--from", place.string(), "--scale", "30%", "--seed", "7"}).scale == 0.3);
+    REQUIRE(has(refusal({"--from", place.string(), "--scale", "0.4"}), "--scale"));
+    REQUIRE(has(refusal({"--from", place.string(), "--shape", "4B"}), "Allowed: 14B"));
+    REQUIRE(has(refusal({"--from", place.string(), "--grading", "curve.txt"}), "Allowed: nothing"));
+    REQUIRE(has(refusal({"--from", place.string(), "--protocol", "prepare"}), "prepared already"));
+    fs::remove_all(place);
+}

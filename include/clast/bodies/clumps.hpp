@@ -222,6 +222,8 @@ struct clumps {
     const vec3& velocity(std::size_t g) const { return motion[g].v; } ///< of the centre (m/s)
     const vec3& spin(std::size_t g) const { return motion[g].w; }     ///< rad/s
     void set_velocity(std::size_t g, const vec3& v) { motion[g].v = v; }
+    /// Puts a clump elsewhere; its pebbles are not placed.
+    void set_place(std::size_t g, const vec3& x, const quaternion& q) { motion[g].x = x, turning[g].q = q; }
     /// Sets the angular momentum with it.
     void set_spin(std::size_t g, const vec3& w) {
         motion[g].w = w;

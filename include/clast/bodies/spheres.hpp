@@ -83,6 +83,8 @@ struct spheres {
     const vec3& velocity(std::size_t b) const { return pebbles[b].v; } ///< m/s
     const vec3& spin(std::size_t b) const { return pebbles[b].w; }     ///< rad/s
     void set_velocity(std::size_t b, const vec3& v) { pebbles[b].v = v; }
+    /// A sphere has no orientation to keep.
+    void set_place(std::size_t b, const vec3& x, const quaternion&) { pebbles[b].x = x; }
     void set_spin(std::size_t b, const vec3& w) { pebbles[b].w = w; }
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }

@@ -92,6 +92,30 @@ template <class P> class engine : private scene<P> {
         boundary = std::move(b);
         rooms::make_lists(own());
     }
+    /// Goes on with the bodies where they are, at rest, within another boundary, as a scene that is made of them anew:
+    /// nothing is remembered of contacts, lists and margins. Nothing may have been replaced. Books what bodies and
+    /// contacts hold then as brought in, after totals were set to what is known so far. step: from which the time step
+    /// goes on (s); one that is found at rest is too long for laws that begin without stiffness.
+    void begin_at_rest(boundary_type b, const engine_totals& so_far, double step) {
+        scene_type& s = own();
+        boundary = std::move(b);
+        for (std::size_t g = 0; g < grains.body_count(); ++g) {
+            grains.shift(g, {}, -grains.velocity(g));
+            if constexpr (requires { grains.set_spin(g, vec3{}); }) grains.set_spin(g, {});
+            grains.place(g);
+        }
+        s.totals = so_far;
+        s.near = {};
+        s.near.widths = first_widths();
+        s.heavy = {}, s.light = {};
+        s.heavy_wall.clear(), s.light_wall.clear(), s.heavy_grip.clear(), s.light_grip.clear(), s.asleep.clear();
+        s.memory = {};
+        s.memory.resize(grains.body_count());
+        rooms::make_lists(s);
+        s.dt = step;
+        estimate(false);
+        s.totals.initial_energy += potential_energy() + elastic_energy();
+    }
     /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
     double friction() const {
         if constexpr (requires { settings.grain_contact.mu; }) return settings.grain_contact.mu;
@@ -164,13 +188,16 @@ template <class P> class engine : private scene<P> {
         s.replacing.begin(grains.grain_count());
         s.smallest_mass = grains.smallest_mass();
         s.smallest_radius = smallest_radius();
-        s.near.widths = list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
+        s.near.widths = first_widths();
         rooms::sort_pebbles(s);
         count_initial_energy();
         rooms::make_lists(s);
         const double then = potential_energy();
         estimate(true);
         s.totals.initial_energy += potential_energy() - then; // it is that of half a step ago, and there is a step now
+    }
+    list_widths first_widths() const {
+        return list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());
     }
     void check_materials(std::size_t count) const {
         for (const std::size_t m : grains.materials)

@@ -2,6 +2,8 @@
 // How a specimen is prepared: from a cloud to grains at rest at the size of the test, under hardly any stress.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include <clast/core/quantity.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/measure/stress.hpp>
 #include <clast/protocol/stage.hpp>
 
 namespace clast::protocol {
@@ -52,6 +55,27 @@ template <class Engine> void stop_grains(Engine& sim) {
     for (std::size_t b = 0; b < sim.grains.body_count(); ++b)
         if (sim.grains.is_swept(b)) set_motion(sim, b, {});
     sim.count_energy_since(before);
+}
+
+/// Largest |p'| (Pa) in the three measurement spheres of a specimen: at a sixth, half and five sixths of its height, as
+/// large as fits there and within 0.7 of its radius.
+template <class Engine> double largest_stress_in_spheres(const Engine& sim) {
+    const auto& b = sim.boundary;
+    const double r = std::min(0.7 * b.radius(), b.height() / 6.0);
+    double largest = 0.0;
+    for (const double z : {1.0 / 6.0, 0.5, 5.0 / 6.0})
+        largest =
+            std::max(largest, std::abs(measure::mean_stress_in_sphere(sim, {0, 0, b.bottom() + z * b.height()}, r)));
+    return largest;
+}
+
+/// Notes in a view how far a specimen is from rest. c: of its contacts now.
+template <class Engine> void note_rest(stage_view& v, const Engine& sim, const measure::contact_state& c) {
+    v.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
+    v.mean_contact_force = c.mean_contact_force;
+    v.coordination = c.coordination;
+    v.kinetic_density = sim.kinetic_energy() / sim.boundary.volume();
+    v.sphere_stress = largest_stress_in_spheres(sim);
 }
 
 /// Says of a stage that goes on short of its end how it stands. jammed: its walls advance no more.

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@
 #include <clast/protocol/check_specimen.hpp>
 #include <clast/protocol/observer.hpp>
 #include <clast/protocol/preparation.hpp>
+#include <clast/protocol/prepared.hpp>
 #include <clast/protocol/stage.hpp>
 #include <clast/protocol/stage_record.hpp>
 #include <clast/protocol/standstill.hpp>
@@ -70,7 +72,7 @@ template <class P> class runner {
             ++stage_steps_;
             stage_time_ += sim.dt();
             confining_now();
-            if (speed_.yields(current())) give_way();
+            if (speed_.yields(current())) protocol::give_way(sim, speed_, current());
             if (every > 0 && sim.totals().steps % every == 0) {
                 sim.place_all();
                 scene_watch_->on_step(sim.state());
@@ -106,6 +108,18 @@ template <class P> class runner {
     double wall_time() const { return wall_time_; }
     /// Of the stages that have ended, in their order.
     const std::vector<stage_record>& records() const { return records_; }
+
+    /// What the preparation hands over: as it was where a stage with `hands_over` began, or is now if none has.
+    prepared_specimen prepared() const { return handed_ ? *handed_ : handed_now(); }
+    /// Begins with a specimen that was prepared by another run, in the stage with `hands_over`: goes on as if this run
+    /// had prepared it. Throws input_error where the protocol has no such stage, or other grains.
+    void take_over(const prepared_specimen& p) {
+        const std::size_t first = protocol::taking_over(plan.stages);
+        protocol::put_in_place(sim, p, membrane_);
+        reference_height_ = p.reference_height, reference_volume_ = p.reference_volume;
+        records_ = p.records;
+        stage_ = first, handed_ = p;
+    }
 
     /// The state of the specimen now.
     sample measure() const {
@@ -157,7 +171,7 @@ template <class P> class runner {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
           reference_height_, reference_volume_, reference_, speed_, error_sum_, error_count_, next_row_, row_start_,
-          wall_time_, record_, records_, tries_, still_, view_, memory_);
+          wall_time_, record_, records_, tries_, still_, handed_, view_, memory_);
         if constexpr (A::reading)
             if (begun_ && (finished() || memory_.size() != current().end.memory))
                 throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
@@ -192,7 +206,7 @@ template <class P> class runner {
         ended_by_itself_ = false;
         stage_steps_ = 0, stage_time_ = 0.0, tries_ = 0;
         error_sum_ = 0.0, error_count_ = 0;
-        if (s.membrane_here) sim.set_boundary(sim.boundary.resized(membrane_));
+        hand_over();
         if (s.reference_here) {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
@@ -219,6 +233,19 @@ template <class P> class runner {
         look(true);
     }
 
+    prepared_specimen handed_now() const {
+        return protocol::handed_over(sim, reference_height_, reference_volume_, records_);
+    }
+    /// The membrane in the place of the vessel, where a stage asks for it.
+    void hand_over() {
+        const stage& s = current();
+        if (!s.hands_over || sim.totals().replaced > 0) {
+            if (s.membrane_here) sim.set_boundary(sim.boundary.resized(membrane_));
+            return;
+        }
+        if (!handed_) handed_ = handed_now();
+        protocol::begin_at_rest(sim, *handed_, membrane_, s.membrane_here);
+    }
     /// end: what ended it, in words.
     void end_stage(observer& watch, bool by_itself, std::string end) {
         // the row of this very step may have just been there
@@ -270,15 +297,7 @@ template <class P> class runner {
     }
     /// still: that nothing changes any more, or nothing.
     [[noreturn]] void fail(const std::string& still) const {
-        const stage& s = current();
-        const sample now = measure();
-        throw run_error({fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
-                         fmt::format("stage '{}', after {} of at most {} steps", s.name, stage_steps_, s.most_steps),
-                         when(),
-                         fmt::format("{}{}{}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa)", still,
-                                     still.empty() ? "" : "; ", protocol::errors_of(view_), 1e-3 * now.q, 1e-3 * now.p,
-                                     1e-3 * view_.sphere_stress),
-                         s.if_stuck});
+        throw protocol::no_end(current(), view_, measure(), stage_steps_, when(), still);
     }
 
     std::string when() const {
@@ -291,14 +310,6 @@ template <class P> class runner {
     protocol::wall_view felt(double p, double coordination) const {
         return {sim.boundary.height(), radius(), p, coordination, static_cast<double>(plan.look_every) * sim.dt()};
     }
-    void give_way() {
-        const auto& b = sim.boundary;
-        const double p = (b.axial_stress(sim.loads()) + 2.0 * b.lateral_stress(sim.loads())) / 3.0;
-        speed_.yield(sim.drives, current(),
-                     protocol::load_of_walls(sim.loads(), p, b.height(), radius(), b.volume(), speed_.moving()),
-                     sim.dt());
-    }
-
     bool met_between_looks() {
         if (!current().end.every_step) return false;
         glance();
@@ -315,8 +326,7 @@ template <class P> class runner {
         view_.steps = stage_steps_;
         view_.time = stage_time_;
     }
-    /// Refreshes all of the view that conditions see, and the drives that depend on it.
-    /// first: before the first step.
+    /// Refreshes all of the view that conditions see, and the drives that depend on it. first: before the first step.
     void look(bool first = false) {
         const auto& b = sim.boundary;
         const stage& s = current();
@@ -326,25 +336,16 @@ template <class P> class runner {
         view_.confining = plan.confining;
         view_.grain_diameter = plan.grain_diameter;
         const measure::contact_state c = measure::contacts_of(sim);
-        view_.unbalanced_ratio = c.contacts > 0 ? c.unbalanced_ratio : 1.0;
-        view_.mean_contact_force = c.mean_contact_force;
-        view_.coordination = c.coordination;
-        view_.kinetic_density = sim.kinetic_energy() / b.volume();
+        protocol::note_rest(view_, sim, c);
         contacts_ = c;
         if (!first) record_.largest_p = std::max(record_.largest_p, view_.p);
-        const double r = 0.7 * radius(), h = b.height();
-        view_.sphere_stress = 0.0;
-        for (double z : {1.0 / 6.0, 0.5, 5.0 / 6.0})
-            view_.sphere_stress = std::max(
-                view_.sphere_stress,
-                std::abs(measure::mean_stress_in_sphere(sim, {0, 0, b.bottom() + z * h}, std::min(r, h / 6.0))));
         view_.axial_error = s.axial.how == axis_drive::kind::stress
                                 ? std::abs(sigma_1 - s.axial.value) / std::max(s.axial.value, least_stress())
                                 : 0.0;
         view_.confining_error = confining_error(s);
-        view_.travel_left = std::max(speed_.way_left(s.axial, 0, h), speed_.way_left(s.lateral, 1, radius()));
+        view_.travel_left = std::max(speed_.way_left(s.axial, 0, b.height()), speed_.way_left(s.lateral, 1, radius()));
         sim.drives = speed_.look(s, felt(view_.p, c.coordination), first);
-        if (speed_.yields(s)) give_way();
+        if (speed_.yields(s)) protocol::give_way(sim, speed_, s);
         if (s.moves_grains && c.coordination < 1.0)
             protocol::move_free_grains(sim, speed_.rates()[0], speed_.rates()[1]);
     }
@@ -395,6 +396,7 @@ template <class P> class runner {
     }
 
     boundaries::vessel_settings membrane_;
+    std::optional<prepared_specimen> handed_;
     scene_observer<P>* scene_watch_ = nullptr; ///< the observer of run(), if it looks at scenes
     std::size_t stage_ = 0;
     bool begun_ = false;

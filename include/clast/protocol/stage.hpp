@@ -299,9 +299,10 @@ struct stage {
     bool from_rest = false;    ///< grains stop where the stage begins
     /// Stress at which axes that go to a size give way, in parts of the confining stress of the setup; 0: they do not.
     double yields_at = 0.0;
-    bool yields_back = false;    ///< also beyond the size that they have reached
-    bool walls_at_rest = false;  ///< walls under servo control keep to the inertial numbers of consolidation
-    double friction = -1.0;      ///< pebble friction in this stage; negative: that of the material
+    bool yields_back = false;   ///< also beyond the size that they have reached
+    bool walls_at_rest = false; ///< walls under servo control keep to the inertial numbers of consolidation
+    bool hands_over = false; ///< it begins with grains at rest, whose contacts remember nothing (protocol/prepared.hpp)
+    double friction = -1.0;  ///< pebble friction in this stage; negative: that of the material
     bool keeps_friction = false; ///< it begins with the friction that the stage before has ended with
     /// Frictions to try where the specimen has come to rest, or jammed, short of `end`: from the first that is below
     /// the present one on, one after the other.

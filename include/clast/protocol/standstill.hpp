@@ -11,6 +11,8 @@
 
 #include <fmt/core.h>
 
+#include <clast/core/errors.hpp>
+#include <clast/measure/sample.hpp>
 #include <clast/protocol/stage.hpp>
 
 namespace clast::protocol {
@@ -70,6 +72,16 @@ inline bool nearly_there(const stage_view& v) {
 inline std::string errors_of(const stage_view& v) {
     return fmt::format("unbalanced ratio {:.3g}, stress errors {:.3g} (axial) and {:.3g} (confining)",
                        v.unbalanced_ratio, v.axial_error, v.confining_error);
+}
+/// The error of a stage that does not end, after so many steps. still: that nothing changes any more, or nothing.
+inline run_error no_end(const stage& s, const stage_view& v, const sample& now, std::int64_t steps,
+                        const std::string& when, const std::string& still) {
+    return run_error(
+        {fmt::format("stage '{}' did not reach its end ({})", s.name, s.end.text),
+         fmt::format("stage '{}', after {} of at most {} steps", s.name, steps, s.most_steps), when,
+         fmt::format("{}{}{}, q = {:.4g} kPa, p' = {:.4g} kPa (spheres {:.4g} kPa)", still, still.empty() ? "" : "; ",
+                     errors_of(v), 1e-3 * now.q, 1e-3 * now.p, 1e-3 * v.sphere_stress),
+         s.if_stuck});
 }
 
 } // namespace clast::protocol

@@ -96,6 +96,7 @@ inline stage consolidation() {
             .end = until::stresses_within(1e-3) && until::unbalanced_below(1e-3),
             .membrane_here = true,
             .walls_at_rest = true,
+            .hands_over = true,
             .ends_at_standstill = true,
             .if_stuck = "Grains may go on breaking or rearranging: lower the stress, or allow more steps."};
 }

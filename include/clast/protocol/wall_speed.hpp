@@ -204,4 +204,12 @@ class wall_speed {
     std::array<bool, 2> moves_{};
 };
 
+/// Drives of walls that give way, after a step of a stage that has such.
+template <class Engine> void give_way(Engine& sim, wall_speed& speed, const stage& s) {
+    const auto& b = sim.boundary;
+    const double p = (b.axial_stress(sim.loads()) + 2.0 * b.lateral_stress(sim.loads())) / 3.0;
+    speed.yield(sim.drives, s, load_of_walls(sim.loads(), p, b.height(), b.radius(), b.volume(), speed.moving()),
+                sim.dt());
+}
+
 } // namespace clast::protocol
