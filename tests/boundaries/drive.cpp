@@ -37,3 +37,17 @@ TEST_CASE("drives come back from an archive, that of y walls whether it is there
     CHECK(copy.lateral_y->value == 2e5);
     CHECK(copy.lateral_y->max_speed == 0.6);
 }
+
+TEST_CASE("the largest speed of drives is that of the fastest facet that they may move") {
+    using clast::boundaries::drive;
+    using clast::boundaries::fastest;
+    using mode = drive::mode;
+    CHECK(fastest(drive{mode::hold, 3.0, 2.0, 0.5}) == 0.0);
+    CHECK(fastest(drive{mode::velocity, -3.0, 2.0, 0.5}) == 3.0); // m/s
+    CHECK(fastest(drive{mode::servo, 1e5, 2.0, 0.5}) == 2.0);     // not the stress
+    clast::boundaries::drives d;
+    d.platens = {mode::velocity, 1.0, 0.0, 0.5}, d.lateral = {mode::servo, 1e5, 2.0, 0.5};
+    CHECK(fastest(d) == 2.0);
+    d.lateral_y = drive{mode::servo, 1e5, 4.0, 0.5};
+    CHECK(fastest(d) == 4.0);
+}

@@ -169,3 +169,30 @@ TEST_CASE("a law that begins without stiffness gets a step that its first collis
     CHECK(found == Approx(deepest).epsilon(0.02));
     CHECK(e.kinetic_energy() == Approx(before).epsilon(1e-3));
 }
+
+TEST_CASE(
+    "walls that are about to move shorten the step of such a law for what they press in before the next estimate") {
+    const double modulus = 1e9, m = 2650.0 * sphere_volume(r), v = 0.1; // m/s
+    bodies::spheres s;
+    s.add({-1.5 * r, 0, 0}, r), s.add({1.5 * r, 0, 0}, r);
+    engine<of_hertz> e({.grain_contact = {modulus},
+                        .platen_contact = {},
+                        .lateral_contact = {},
+                        .breakage = {},
+                        .replacement = {},
+                        .safety = 0.5,
+                        .largest_step = 1e-4},
+                       s, spaces::open{});
+    CHECK(e.dt() == 1e-4); // at rest, and free
+    e.expect_speed(v);
+    const double depth = v * 1e-4 * 50.0; // in fifty steps (m)
+    const double k = 2.0 * modulus * std::sqrt(0.5 * r * depth) / 3.0;
+    CHECK(e.dt() == Approx(0.5 * std::sqrt(m / (3.0 * k))).epsilon(1e-12));
+    const double before = e.dt();
+    e.expect_speed(0.0);
+    CHECK(e.dt() == before);
+    auto linear = row(2);
+    const double step = linear.dt();
+    linear.expect_speed(100.0); // a stiffness that does not change
+    CHECK(linear.dt() == step);
+}

@@ -2,6 +2,7 @@
 // How a part of the boundary is driven: held, moved at a speed, or servo-controlled to a stress.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -32,6 +33,14 @@ struct drives {
 
     template <class A> void archive(A& a) { a(platens, lateral, lateral_y); }
 };
+
+/// Largest speed (m/s) that a drive may give a facet.
+inline double fastest(const drive& d) {
+    return d.how == drive::mode::servo ? d.max_speed : d.how == drive::mode::velocity ? std::abs(d.value) : 0.0;
+}
+inline double fastest(const drives& d) {
+    return std::max({fastest(d.platens), fastest(d.lateral), d.lateral_y ? fastest(*d.lateral_y) : 0.0});
+}
 
 /// Throws input_error where a drive makes no sense. `name` says whose drive it is.
 inline void check(const drive& d, const char* name) {

@@ -116,6 +116,19 @@ template <class P> class engine : private scene<P> {
         estimate(false);
         s.totals.initial_energy += potential_energy() + elastic_energy();
     }
+    /// Shortens the time step for walls that are about to take up a speed (m/s): for the overlap that they may press
+    /// into contacts before the next estimate. A law that begins without stiffness has a long step at rest.
+    void expect_speed(double v) {
+        if constexpr (!contacts::is_of_constant_stiffness<contact>()) {
+            scene_type& s = own();
+            const double depth = std::min(v * dt() * static_cast<double>(step_interval), s.smallest_radius);
+            const contacts::overlap<double> typical = s.typical_overlap(depth);
+            const auto& law = settings.grain_contact;
+            const double stiffness = (law.normal_stiffness(typical) + 2.0 * law.shear_stiffness(typical)) / 3.0;
+            if (stiffness > 0.0)
+                s.dt = std::min(s.dt, rooms::typical_limit(s, rooms::smallest_free_mass(s), stiffness));
+        }
+    }
     /// Friction between pebbles, of laws that have one (a member `mu`); 0 for others.
     double friction() const {
         if constexpr (requires { settings.grain_contact.mu; }) return settings.grain_contact.mu;

@@ -231,6 +231,7 @@ template <class P> class runner {
         view_ = {};
         memory_.assign(s.end.memory, 0.0);
         look(true);
+        sim.expect_speed(boundaries::fastest(sim.drives));
     }
 
     prepared_specimen handed_now() const {
