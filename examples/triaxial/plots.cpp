@@ -65,29 +65,32 @@ rosette make_rosette(std::span<const fracture_event> events, int sectors) {
     return r;
 }
 
-std::vector<ring_profile> membrane_profile(std::span<const facet_view> facets) {
+std::vector<edge_profile> membrane_profile(std::span<const facet_view> facets) {
     constexpr double huge = std::numeric_limits<double>::max();
-    std::map<std::int32_t, std::pair<ring_profile, double>> rings;
+    struct ring {
+        std::array<edge_profile, 2> edge{{{0.0, huge, 0.0, -huge, huge, -huge}, {0.0, huge, 0.0, -huge, huge, -huge}}};
+        double facets = 0.0;
+    };
+    std::map<std::int32_t, ring> rings;
     for (const facet_view& f : facets) {
         if (f.ring < 0) continue;
-        auto [place, fresh] = rings.try_emplace(f.ring, ring_profile{huge, -huge, huge, 0.0, 0.0, huge, -huge}, 0.0);
-        ring_profile& r = place->second.first;
-        vec3 centre;
-        for (const vec3& c : f.corner) {
-            centre += 0.25 * c;
-            r.bottom = std::min(r.bottom, c.z), r.top = std::max(r.top, c.z);
-            r.left = std::min(r.left, c.x), r.right = std::max(r.right, c.x);
+        ring& r = rings[f.ring];
+        r.facets += 1.0;
+        for (std::size_t k = 0; k < 2; ++k) { // corners go round: the first two are below
+            const vec3 &one = f.corner[2 * k], &two = f.corner[2 * k + 1], middle = 0.5 * (one + two);
+            edge_profile& e = r.edge[k];
+            const double radius = std::hypot(middle.x, middle.y);
+            e.height += middle.z, e.mean += radius;
+            e.smallest = std::min(e.smallest, radius), e.largest = std::max(e.largest, radius);
+            e.left = std::min({e.left, one.x, two.x}), e.right = std::max({e.right, one.x, two.x});
         }
-        const double radius = std::hypot(centre.x, centre.y);
-        r.smallest = std::min(r.smallest, radius), r.largest = std::max(r.largest, radius);
-        r.mean += radius;
-        place->second.second += 1.0;
     }
-    std::vector<ring_profile> profile;
-    for (auto& [ring, entry] : rings) {
-        entry.first.mean /= entry.second;
-        profile.push_back(entry.first);
-    }
+    std::vector<edge_profile> profile;
+    for (auto& [number, r] : rings)
+        for (edge_profile& e : r.edge) {
+            e.height /= r.facets, e.mean /= r.facets;
+            profile.push_back(e);
+        }
     return profile;
 }
 
@@ -172,23 +175,21 @@ class plot_folder {
     bool missing_ = false;
 };
 
-/// A closed polygon "x,z" per line in cm that follows both edges of each ring, so that a ring shows as the step it is.
-std::string step_polygon(const std::vector<ring_profile>& rings, double ring_profile::*left,
-                         double ring_profile::*right) {
+/// A closed polygon "x,z" per line in cm that follows both sides of each ring, so that a step shows as the step it is.
+std::string outline(const std::vector<edge_profile>& edges, double edge_profile::*left, double edge_profile::*right) {
     std::string text;
     const auto point = [&text](double x, double z) {
         fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g}\n", 100 * x, 100 * z);
     };
-    for (const ring_profile& r : rings) point(r.*left, r.bottom), point(r.*left, r.top);
-    for (auto r = rings.rbegin(); r != rings.rend(); ++r) point((*r).*right, r->top), point((*r).*right, r->bottom);
-    if (!rings.empty()) point(rings.front().*left, rings.front().bottom);
+    for (const edge_profile& e : edges) point(e.*left, e.height);
+    for (auto e = edges.rbegin(); e != edges.rend(); ++e) point((*e).*right, e->height);
+    if (!edges.empty()) point(edges.front().*left, edges.front().height);
     return text;
 }
-std::string step_line(const std::vector<ring_profile>& rings, double ring_profile::*x) {
+std::string line_through(const std::vector<edge_profile>& edges, double edge_profile::*x) {
     std::string text;
-    for (const ring_profile& r : rings)
-        fmt::format_to(std::back_inserter(text), "{0:.5g},{1:.5g}\n{0:.5g},{2:.5g}\n", 100 * r.*x, 100 * r.bottom,
-                       100 * r.top);
+    for (const edge_profile& e : edges)
+        fmt::format_to(std::back_inserter(text), "{:.5g},{:.5g}\n", 100 * e.*x, 100 * e.height);
     return text;
 }
 
@@ -198,15 +199,14 @@ void draw_membrane(plot_folder& plots, const plot_request& request) {
     const auto add = [&](const specimen_view& view, const std::string& name, const char* colour) {
         const auto rings = membrane_profile(view.facets);
         if (rings.empty()) return;
-        for (const ring_profile& r : rings) {
+        for (const edge_profile& r : rings) {
             r0 = std::min(r0, r.smallest), r1 = std::max(r1, r.largest);
-            z0 = std::min(z0, r.bottom), z1 = std::max(z1, r.top);
+            z0 = std::min(z0, r.height), z1 = std::max(z1, r.height);
             half = std::max({half, -r.left, r.right});
         }
-        plots.data("membrane_band_" + name + ".csv",
-                   step_polygon(rings, &ring_profile::smallest, &ring_profile::largest));
-        plots.data("membrane_mean_" + name + ".csv", step_line(rings, &ring_profile::mean));
-        plots.data("membrane_outline_" + name + ".csv", step_polygon(rings, &ring_profile::left, &ring_profile::right));
+        plots.data("membrane_band_" + name + ".csv", outline(rings, &edge_profile::smallest, &edge_profile::largest));
+        plots.data("membrane_mean_" + name + ".csv", line_through(rings, &edge_profile::mean));
+        plots.data("membrane_outline_" + name + ".csv", outline(rings, &edge_profile::left, &edge_profile::right));
         const std::string title = fmt::format("ε_a = {:.1f} %", 100.0 * view.axial_strain);
         bands += fmt::format(
             "{0}\"data/membrane_band_{1}.csv\" using 1:2 with filledcurves closed linecolor rgb {2} notitle, "
@@ -384,7 +384,7 @@ void draw_specimen(plot_folder& plots, const plot_request& request) {
         plots.data("specimen_" + name + ".rgb", picture.bytes);
         const auto rings = membrane_profile(view->facets);
         plots.data("outline_" + name + ".csv",
-                   rings.empty() ? "NaN,NaN\n" : step_polygon(rings, &ring_profile::left, &ring_profile::right));
+                   rings.empty() ? "NaN,NaN\n" : outline(rings, &edge_profile::left, &edge_profile::right));
         const double pixel = 100.0 * (w.z1 - w.z0) / picture.height;
         panels += place(left / page_w, below / page_h, panel_w / page_w, panel_h / page_h, w, title);
         panels +=

@@ -51,15 +51,15 @@ struct rosette {
 /// Sorts events into `sectors` of azimuth.
 rosette make_rosette(std::span<const clast::fracture_event> events, int sectors = 36);
 
-/// Radius of the membrane in one ring (m).
-struct ring_profile {
-    double bottom = 0.0, top = 0.0;                   ///< heights of its edges
-    double smallest = 0.0, mean = 0.0, largest = 0.0; ///< distance of the facet centres from the axis
-    double left = 0.0, right = 0.0;                   ///< smallest and largest x: what a viewer along y sees
+/// The lower or upper edge of a ring of facets around a specimen (m).
+struct edge_profile {
+    double height = 0.0;
+    double smallest = 0.0, mean = 0.0,
+           largest = 0.0;           ///< distance of the facets' edges, in their middles, from the axis
+    double left = 0.0, right = 0.0; ///< smallest and largest x: what a viewer along y sees
 };
-
-/// The membrane from the bottom to the top, from its facets (platens are left out).
-std::vector<ring_profile> membrane_profile(std::span<const clast::facet_view> facets);
+/// The edges of all rings, from the bottom to the top, each ring's lower and then its upper one.
+std::vector<edge_profile> membrane_profile(std::span<const clast::facet_view> facets);
 
 /// Draws all figures into `folder` (created): stress, volume, fractures, compression, membrane, rosette, specimen and
 /// section, each as .svg and .png. A figure without data is left out. A missing gnuplot is a problem in the report,

@@ -109,15 +109,17 @@ TEST_CASE("the membrane profile has the radii of each ring and leaves platens ou
     for (const auto& f : ring(0, 0.0, 0.2, {0.3, 0.3, 0.3, 0.3})) facets.push_back(f);
     facets.push_back({{{{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}}, 1e6, 1, -1, -1});
     const auto profile = membrane_profile(facets);
-    REQUIRE(profile.size() == 2);
+    REQUIRE(profile.size() == 4);
     REQUIRE(profile[0].mean == Approx(0.3).epsilon(1e-14));
-    REQUIRE(profile[1].bottom == 0.2);
-    REQUIRE(profile[1].top == 0.4);
-    REQUIRE(profile[1].smallest == Approx(0.3).epsilon(1e-14));
-    REQUIRE(profile[1].largest == Approx(0.36).epsilon(1e-14));
-    REQUIRE(profile[1].mean == Approx(0.33).epsilon(1e-14));
-    REQUIRE(profile[1].right == Approx(0.3).epsilon(1e-14));
-    REQUIRE(profile[1].left == Approx(-0.34).epsilon(1e-14));
+    REQUIRE(profile[2].height == 0.2);
+    REQUIRE(profile[3].height == 0.4);
+    for (const std::size_t k : {2U, 3U}) { // of one ring: upright facets
+        REQUIRE(profile[k].smallest == Approx(0.3).epsilon(1e-14));
+        REQUIRE(profile[k].largest == Approx(0.36).epsilon(1e-14));
+        REQUIRE(profile[k].mean == Approx(0.33).epsilon(1e-14));
+        REQUIRE(profile[k].right == Approx(0.3).epsilon(1e-14));
+        REQUIRE(profile[k].left == Approx(-0.34).epsilon(1e-14));
+    }
     REQUIRE(membrane_profile({}).empty());
 }
 

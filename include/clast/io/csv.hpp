@@ -60,6 +60,7 @@ inline constexpr column<sample> series_columns[] = {
     {"inertial_number", "", [](sample& r) -> cell { return &r.inertial_number; }},
     {"unbalanced_ratio", "", [](sample& r) -> cell { return &r.unbalanced_ratio; }},
     {"confining_error", "", [](sample& r) -> cell { return &r.confining_error; }},
+    {"confining_rms", "", [](sample& r) -> cell { return &r.confining_rms; }},
     {"median_overlap_over_r", "", [](sample& r) -> cell { return &r.median_overlap_over_r; }},
     {"max_overlap_over_r", "", [](sample& r) -> cell { return &r.max_overlap_over_r; }},
     {"kappa", "", [](sample& r) -> cell { return &r.kappa; }},

@@ -32,6 +32,7 @@ struct sample {
     double inertial_number = 0.0;       ///< paper Eq. 2
     double unbalanced_ratio = 0.0;      ///< max |F_unbalanced| / mean sum |F_contact|
     double confining_error = 0.0;       ///< |sum F - target sum A| / (target sum A), mean since the last sample
+    double confining_rms = 0.0;         ///< of the same for each facet that moves on its own: root mean square, now
     double median_overlap_over_r = 0.0; ///< overlap over the smaller radius, of touching contacts, walls included
     double max_overlap_over_r = 0.0;    ///< the largest of them
     double kappa = 0.0;                 ///< k_n / (p d)

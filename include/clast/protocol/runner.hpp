@@ -151,6 +151,10 @@ template <class P> class runner {
         s.max_overlap_over_r = c.max_overlap_over_r;
         s.coordination = c.coordination;
         s.confining_error = error_count_ > 0 ? error_sum_ / static_cast<double>(error_count_) : 0.0;
+        if constexpr (requires { b.confining_rms(sim.loads(), 1.0); })
+            if (const axis_drive& a = plan.stages[std::min(stage_, plan.stages.size() - 1)].lateral;
+                a.how == axis_drive::kind::stress && a.value > 0.0)
+                s.confining_rms = b.confining_rms(sim.loads(), a.value);
         const double curvature = 2.0 / plan.grain_diameter;
         const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, c.mean_overlap, curvature, curvature});
         s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
