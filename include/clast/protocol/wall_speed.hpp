@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 
+#include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/drive.hpp>
 #include <clast/boundaries/touch.hpp>
 #include <clast/protocol/stage.hpp>
@@ -207,7 +208,7 @@ class wall_speed {
 /// Drives of walls that give way, after a step of a stage that has such.
 template <class Engine> void give_way(Engine& sim, wall_speed& speed, const stage& s) {
     const auto& b = sim.boundary;
-    const double p = (b.axial_stress(sim.loads()) + 2.0 * b.lateral_stress(sim.loads())) / 3.0;
+    const double p = (boundaries::axial_stress(b, sim.loads()) + 2.0 * b.lateral_stress(sim.loads())) / 3.0;
     speed.yield(sim.drives, s, load_of_walls(sim.loads(), p, b.height(), b.radius(), b.volume(), speed.moving()),
                 sim.dt());
 }
