@@ -121,7 +121,7 @@ struct clumps_14_break_in_tiles {
 
 struct clumps_4_in_ring_walls {
     using policies = scenes::unbreakable<boundaries::ring_walls>;
-    static constexpr std::int64_t steps = 1500;
+    static constexpr std::int64_t steps = 3000;
     static engine<policies> start(int threads) {
         return scenes::packed<policies>(cut_in_ranges(scenes::settings<policies>(), threads),
                                         shapes::tetrahedron_4(0.02), 90, 0.062, 2e5, 2000, 2);
