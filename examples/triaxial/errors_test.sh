@@ -67,7 +67,7 @@ refuse 2 "--packing: " "missing.txt" -- --packing missing.txt
 printf '0 0 0 0.02\n' >ball.txt
 refuse 2 "--packing: " "ball.txt:1" "orientations" -- --packing ball.txt
 refuse 2 "--strength: 'week'" "weak, medium, strong" -- --strength week
-refuse 2 "--membrane: 'rubber'" "tiles, solid" -- --membrane rubber
+refuse 2 "--membrane: 'rubber'" "tiles, rings, solid, rigid" -- --membrane rubber
 refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --criterion tresca
 refuse 2 "--replacement: 'daughters'" "modified, none" -- --replacement daughters
 refuse 2 "--birth: 'hot'" "warm, zero" -- --birth hot

@@ -19,7 +19,7 @@
 
 #include <clast/bodies/spheres.hpp>
 #include <clast/spaces/periodic.hpp>
-#include <clast/boundaries/tiles.hpp>
+#include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/core/random.hpp>
 #include <clast/engine/engine.hpp>
@@ -34,9 +34,9 @@ namespace {
 
 constexpr std::int64_t row = 100; ///< steps between checksums
 
-/// Clumps of 14 with local damping in a membrane of tiles, pressed until some are bonded clusters that break.
+/// Clumps of 14 with local damping in a membrane of stepped tiles, pressed until some are bonded clusters that break.
 struct clumps {
-    using policies = scenes::breakable<boundaries::tiles>;
+    using policies = scenes::breakable<boundaries::stepped_tiles>;
     static constexpr const char* name = "clumps";
     static constexpr const char* what = "broken bonds";
     static constexpr double diameter = 0.02, stress = 2e5; // m, Pa
