@@ -10,19 +10,16 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/cylinder_settings.hpp>
+#include <clast/boundaries/facet_rings.hpp>
 #include <clast/boundaries/plate.hpp>
-#include <clast/boundaries/platens.hpp>
 #include <clast/boundaries/polygon.hpp>
 #include <clast/boundaries/touch.hpp>
-#include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -43,14 +40,8 @@ namespace clast::boundaries {
 /// move the point of contact.
 ///
 /// A template without a choice: what it does is compiled only in programs that have such a wall.
-template <class = void> class node_rows {
+template <class = void> class node_rows : public facet_rings<> {
   public:
-    const cylinder_settings& settings() const { return set_; }
-
-    int facet_count() const { return first_lateral_facet + rings_ * around_; }
-    int ring_count() const { return rings_; }      ///< rows of nodes
-    int tiles_per_ring() const { return around_; } ///< nodes in a row
-
     // --- contact ---------------------------------------------------------------------------------------------------
     /// Whether a facet could come within `reach` (pebble radius plus margin, m) of x. Conservative: never false if one
     /// is.
@@ -83,29 +74,16 @@ template <class = void> class node_rows {
     /// Whether a pebble is lost: its centre is beyond a platen, or beyond the surface, by more than its radius.
     bool outside(const vec3& x, double r) const {
         if (!(x.z > platens_.bottom - r && x.z < platens_.top + r)) return true; // also for NaN
-        const double level = (x.z - bottom()) / spacing() - 0.5;
-        const int below = std::clamp(static_cast<int>(std::floor(level)), 0, rings_ - 1);
-        const int above = std::min(below + 1, rings_ - 1);
-        const double share = std::clamp(level - below, 0.0, 1.0);
+        const int strip = strip_at(x.z), below = std::max(strip, 0), above = std::min(strip + 1, rings_ - 1);
+        const double share = above > below ? (x.z - level(below)) * per_spacing_ : 0.0;
         const int i = dir_.towards(x.x, x.y);
         const double limit = (1.0 - share) * edge_towards(below, i, x) + share * edge_towards(above, i, x) + r;
         return !(x.x * x.x + x.y * x.y <= limit * limit);
     }
     /// Whether a sphere has room inside a wall that still is a cylinder, touching nothing.
-    bool holds(const vec3& x, double r) const {
-        const double free = radius() - r;
-        return x.x * x.x + x.y * x.y <= free * free && !platens_.near(x.z, r);
-    }
+    bool holds(const vec3& x, double r) const { return facet_rings<>::holds(x, r, radius()); }
 
     // --- facets ----------------------------------------------------------------------------------------------------
-    /// Normal stiffness of the piece (N/m), before the series rule with the pebble.
-    double stiffness(int facet) const {
-        return facet < first_lateral_facet ? set_.platen_stiffness : set_.tile_stiffness;
-    }
-    /// Velocity of a facet inward (m/s).
-    double velocity(int facet) const {
-        return facet < first_lateral_facet ? platens_.velocity[index(facet)] : velocity_[index(facet - 2)];
-    }
     /// Inward unit vector of a facet's motion.
     vec3 inward(int facet) const {
         if (facet < first_lateral_facet) return {0.0, 0.0, facet == bottom_platen ? 1.0 : -1.0};
@@ -124,8 +102,7 @@ template <class = void> class node_rows {
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
     void advance(double dt) {
-        platens_.advance(dt);
-        for (std::size_t j = 0; j < apothem_.size(); ++j) apothem_[j] -= velocity_[j] * dt;
+        move(dt);
         refresh();
         check_state();
     }
@@ -138,27 +115,12 @@ template <class = void> class node_rows {
     }
 
     // --- measures --------------------------------------------------------------------------------------------------
-    double volume() const { return volume_; }             ///< enclosed (m^3)
-    double height() const { return platens_.height(); }   ///< between platens (m)
-    double section() const { return volume_ / height(); } ///< mean cross-section (m^2)
-    double bottom() const { return platens_.bottom; }     ///< height of the bottom platen (m)
-    double top() const { return platens_.top; }           ///< height of the top platen (m)
     /// Area of the specimen at a platen (m^2): 0 the bottom one, 1 the top one.
     double end_section(int platen) const { return row_area(platen == bottom_platen ? 0 : rings_ - 1); }
     /// Area of the specimen at a height between the platens (m^2).
     double section_at(double z) const;
-    /// Largest facet speed (m/s).
-    double fastest() const {
-        return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), lateral_speed_});
-    }
-    /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
-    double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
     /// Axial stress of the laboratory (axial.hpp, Pa).
     double axial_stress(std::span<const facet_load> loads) const { return boundaries::axial_stress(*this, loads); }
-    /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
-    double confining_error(std::span<const facet_load> loads, double sigma) const {
-        return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
-    }
     /// Rate of work done on the specimen by all facets (W): force times inward velocity, and vertical force times that
     /// of the rows, which move with the platens.
     double power(std::span<const facet_load> loads) const {
@@ -176,8 +138,8 @@ template <class = void> class node_rows {
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        a(set_, rings_, around_, flat_, dir_, cosine_, sine_, platens_, apothem_, velocity_, at_, quads_, strip_least_,
-          per_spacing_, area_, volume_, lateral_area_, lateral_speed_);
+        facet_rings<>::archive(a);
+        a(flat_, cosine_, sine_, at_, quads_, strip_least_, per_spacing_, area_);
     }
 
   protected:
@@ -185,14 +147,12 @@ template <class = void> class node_rows {
     /// radius leaves no room for the smallest pebble.
     node_rows(int rows, const cylinder_settings& of_checked_sizes);
 
-    static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
-    std::size_t tile(int row, int i) const { return index(row * around_ + i); }
     /// Every node has an area of its own.
     static constexpr bool hidden(int, int) { return false; }
     /// Nodes share faces, smoothly: each may answer on its own to what all of them would do together.
     static constexpr bool solved_together = false;
-    /// Largest steps (m) between neighbours up a column and around a row: slopes of 0.8 and 0.5, or those of the
-    /// settings. Plates of a ridge turn by less than a right angle then.
+    /// Largest steps (m) between neighbours up a column and around a row, slopes of 0.9 at the start: plates of a ridge
+    /// turn by less than a right angle then.
     double largest_gap() const { return 0.9 * spacing(); }
     double largest_step() const { return 0.9 * regular_width(around_, radius()); }
     /// What the sheet adds to the loads of its nodes because it resists kinks: a force on the grains for each (N,
@@ -203,15 +163,7 @@ template <class = void> class node_rows {
     /// Speed of the nodes for one of the prism's faces (m/s).
     double speed_of_faces(double v) const { return v / flat_; }
 
-    cylinder_settings set_;
-    int rings_ = 1;
-    int around_ = 0;
-    double flat_ = 1.0; // apothem over radius of a regular row
-    directions dir_;    // of the faces; face i lies between the nodes i - 1 and i
-    platens platens_;
-    std::vector<double> apothem_;  // radius of each node, row-major
-    std::vector<double> velocity_; // per node, inward
-    double lateral_speed_ = 0.0;   // largest |velocity_|
+    double flat_ = 1.0; // apothem over radius of a regular row; face i of a row lies between its nodes i - 1 and i
 
   private:
     struct point {
@@ -224,7 +176,6 @@ template <class = void> class node_rows {
         double bent = 0.0;   ///< distance of the corners from the plane (m)
         double least = 0.0; ///< of the corners' radii, as an apothem: no point is nearer to the axis along the face (m)
     };
-    double spacing() const { return height() / rings_; } ///< between rows (m)
     /// Strip at a height.
     int strip_at(double z) const {
         const double q = std::floor((z - bottom()) * per_spacing_ - 0.5);
@@ -232,10 +183,7 @@ template <class = void> class node_rows {
     }
     double level(int row) const { return bottom() + (row + 0.5) * spacing(); }
     /// Upward velocity of a row (m/s).
-    double row_velocity(int row) const {
-        const double share = (row + 0.5) / rings_;
-        return (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1];
-    }
+    double row_velocity(int row) const { return rise((row + 0.5) / rings_); }
     vec3 outward(int facet) const {
         const std::size_t i = index((facet - first_lateral_facet) % around_);
         return {cosine_[i], sine_[i], 0.0};
@@ -309,11 +257,6 @@ template <class = void> class node_rows {
     }
     void refresh();
     void check_state() const;
-    double lateral_force(std::span<const facet_load> loads) const {
-        double sum = 0.0;
-        for (int f = first_lateral_facet; f < facet_count(); ++f) sum += loads[index(f)].force;
-        return sum;
-    }
 
     std::vector<double> cosine_, sine_; // of the nodes' azimuths
     std::vector<point> at_;             // per node
@@ -321,8 +264,6 @@ template <class = void> class node_rows {
     double per_spacing_ = 0.0;          // 1/m
     std::vector<double> area_;          // per node
     std::vector<quadrilateral> quads_;  // per strip, from -1 on, and face
-    double volume_ = 0.0;
-    double lateral_area_ = 0.0;
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
@@ -338,18 +279,15 @@ inline constexpr std::array<corner_parts, 4> quarter_parts{{{{{1, 0, 0, 0}, {0, 
 } // namespace detail
 
 template <class X>
-node_rows<X>::node_rows(int rows, const cylinder_settings& of_checked_sizes) : set_(of_checked_sizes), rings_(rows) {
-    around_ = set_.tiles_per_ring;
-    flat_ = std::cos(std::numbers::pi / around_);
-    dir_ = directions(around_);
-    platens_ = {set_.bottom, set_.top, {}};
+node_rows<X>::node_rows(int rows, const cylinder_settings& of_checked_sizes)
+    : facet_rings<>(rows, of_checked_sizes,
+                    of_checked_sizes.radius / std::cos(std::numbers::pi / of_checked_sizes.tiles_per_ring)),
+      flat_(std::cos(std::numbers::pi / around_)) {
     for (int i = 0; i < around_; ++i) {
         cosine_.push_back(std::cos(dir_.angle() * (i + 0.5)));
         sine_.push_back(std::sin(dir_.angle() * (i + 0.5)));
     }
-    const std::size_t nodes = index(rings_) * index(around_);
-    apothem_.assign(nodes, set_.radius / flat_);
-    velocity_.assign(nodes, 0.0);
+    const std::size_t nodes = apothem_.size();
     at_.resize(nodes);
     quads_.resize(nodes + index(around_));
     area_.resize(nodes);
@@ -463,11 +401,10 @@ template <class X> double node_rows<X>::resist_kinks(double stiffness, std::vect
 }
 
 template <class X> double node_rows<X>::section_at(double z) const {
-    const double up = (z - bottom()) / spacing() - 0.5;
-    if (up <= 0.0) return row_area(0);
-    if (up >= rings_ - 1) return row_area(rings_ - 1);
-    const int k = static_cast<int>(up);
-    const double share = up - k;
+    const int k = strip_at(z);
+    if (k < 0) return row_area(0);
+    if (k >= rings_ - 1) return row_area(rings_ - 1);
+    const double share = (z - level(k)) * per_spacing_;
     const auto between = [](const vec3& a, const vec3& b, double part) { return (1.0 - part) * a + part * b; };
     double sum = 0.0;
     for (int i = 0; i < around_; ++i) {
@@ -486,12 +423,11 @@ template <class X> double node_rows<X>::section_at(double z) const {
 }
 
 template <class X> void node_rows<X>::refresh() {
-    for (int k = 0; k < rings_; ++k) {
+    for (int k = 0; k < rings_; ++k)
         for (int i = 0; i < around_; ++i) {
             const std::size_t j = tile(k, i);
             at_[j] = {apothem_[j] * cosine_[index(i)], apothem_[j] * sine_[index(i)]};
         }
-    }
     per_spacing_ = 1.0 / spacing();
     for (int strip = -1; strip < rings_; ++strip) {
         const int low = std::max(strip, 0), high = std::min(strip + 1, rings_ - 1);
@@ -553,35 +489,17 @@ template <class X> void node_rows<X>::refresh() {
 }
 
 template <class X> void node_rows<X>::check_state() const {
-    const auto stop = [this](std::string what, std::string where) {
-        throw run_error({std::move(what), std::move(where), fmt::format("specimen height {:.6g} m", height()),
-                         "the load moves the boundary faster than grains can resist, or no grain is left to resist",
-                         "load more slowly, lower the speed limit of the servo, or use more rings"});
-    };
-    // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
-    // failed anyway.
-    const double least = 0.5 * set_.smallest_radius;
-    if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
+    check_height();
     for (std::size_t j = 0; j < apothem_.size(); ++j)
-        if (!(flat_ * apothem_[j] >= least && flat_ * apothem_[j] <= set_.largest_radius && area_[j] > 0.0))
+        if (!(flat_ * apothem_[j] >= least() && flat_ * apothem_[j] <= set_.largest_radius && area_[j] > 0.0))
             stop("The membrane is torn",
                  fmt::format("node {} of row {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m), of {:.3g} m^2",
-                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least / flat_,
+                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least() / flat_,
                              set_.largest_radius / flat_, area_[j]));
 }
 
 template <class X> std::vector<facet_view> node_rows<X>::view(std::span<const facet_load> loads) const {
-    std::vector<facet_view> out;
-    double side = 0.0;
-    for (const double r : apothem_) side = std::max(side, 1.05 * r);
-    for (int f = 0; f < first_lateral_facet; ++f) {
-        const double z = f == bottom_platen ? platens_.bottom : platens_.top;
-        out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
-                       loads[index(f)].force / end_section(f),
-                       end_section(f),
-                       -1,
-                       -1});
-    }
+    std::vector<facet_view> out = view_of_platens(loads, std::array{end_section(0), end_section(1)});
     const auto pressure = [&](int row, int i) {
         return loads[tile(row, i) + index(first_lateral_facet)].force / area_[tile(row, i)];
     };

@@ -10,19 +10,16 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include <clast/boundaries/axial.hpp>
 #include <clast/boundaries/cylinder_settings.hpp>
-#include <clast/boundaries/platens.hpp>
+#include <clast/boundaries/facet_rings.hpp>
 #include <clast/boundaries/polygon.hpp>
 #include <clast/boundaries/push_out.hpp>
 #include <clast/boundaries/touch.hpp>
-#include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/measure/sample.hpp>
 
@@ -38,14 +35,8 @@ namespace clast::boundaries {
 /// platens, too low to find a grain, put the mean confining stress wrong by up to 1 %.
 ///
 /// A template without a choice: what it does is compiled only in programs that have such a wall.
-template <class = void> class tile_rings {
+template <class = void> class tile_rings : public facet_rings<> {
   public:
-    const cylinder_settings& settings() const { return set_; }
-
-    int facet_count() const { return first_lateral_facet + rings_ * around_; }
-    int ring_count() const { return rings_; }
-    int tiles_per_ring() const { return around_; }
-
     // --- contact ---------------------------------------------------------------------------------------------------
     /// Whether a facet could come within `reach` (pebble radius plus margin, m) of x. Conservative: never false if one
     /// is.
@@ -93,20 +84,9 @@ template <class = void> class tile_rings {
     }
 
     /// Whether a sphere has room inside a wall that still is a cylinder, touching nothing.
-    bool holds(const vec3& x, double r) const {
-        const double free = radius() - r;
-        return x.x * x.x + x.y * x.y <= free * free && !platens_.near(x.z, r);
-    }
+    bool holds(const vec3& x, double r) const { return facet_rings<>::holds(x, r, radius()); }
 
     // --- facets ----------------------------------------------------------------------------------------------------
-    /// Normal stiffness of the piece (N/m), before the series rule with the pebble.
-    double stiffness(int facet) const {
-        return facet < first_lateral_facet ? set_.platen_stiffness : set_.tile_stiffness;
-    }
-    /// Velocity of a facet along its inward normal (m/s).
-    double velocity(int facet) const {
-        return facet < first_lateral_facet ? platens_.velocity[index(facet)] : velocity_[index(facet - 2)];
-    }
     /// Inward unit normal of a facet.
     vec3 inward(int facet) const {
         if (facet < first_lateral_facet) return {0.0, 0.0, facet == bottom_platen ? 1.0 : -1.0};
@@ -121,14 +101,13 @@ template <class = void> class tile_rings {
     /// d volume / dt = - sum of area times velocity.
     double area(int facet) const {
         if (facet < first_lateral_facet) return section();
-        return visible_[index(facet - first_lateral_facet)].width() * tile_height();
+        return visible_[index(facet - first_lateral_facet)].width() * spacing();
     }
 
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
     void advance(double dt) {
-        platens_.advance(dt);
-        for (std::size_t j = 0; j < apothem_.size(); ++j) apothem_[j] -= velocity_[j] * dt;
+        move(dt);
         refresh();
         check_state();
     }
@@ -140,42 +119,16 @@ template <class = void> class tile_rings {
         if (t.facet == top_platen) return {0.0, 0.0, -platens_.velocity[1]};
         const std::size_t j = index(t.facet - first_lateral_facet), i = j % index(around_);
         const double v = velocity_[j], share = std::clamp((point.z - bottom()) / height(), 0.0, 1.0);
-        return {-v * dir_.cosine[i], -v * dir_.sine[i],
-                (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1]};
+        return {-v * dir_.cosine[i], -v * dir_.sine[i], rise(share)};
     }
 
     // --- measures --------------------------------------------------------------------------------------------------
-    double volume() const { return volume_; }             ///< enclosed (m^3)
-    double height() const { return platens_.height(); }   ///< between platens (m)
-    double section() const { return volume_ / height(); } ///< mean cross-section (m^2)
-    double bottom() const { return platens_.bottom; }     ///< height of the bottom platen (m)
-    double top() const { return platens_.top; }           ///< height of the top platen (m)
     /// Area of the specimen at a height between the platens (m^2).
-    double section_at(double z) const {
-        const int k = ring_at(z);
-        double sum = 0.0;
-        for (int i = 0; i < around_; ++i) sum += 0.5 * visible_[tile(k, i)].width() * apothem_[tile(k, i)];
-        return sum;
-    }
-    /// Largest facet speed (m/s).
-    double fastest() const {
-        return std::max({std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]), lateral_speed_});
-    }
-    /// Mean stress of the lateral wall: sum of forces / sum of areas (Pa).
-    double lateral_stress(std::span<const facet_load> loads) const { return lateral_force(loads) / lateral_area_; }
+    double section_at(double z) const { return ring_area(ring_at(z)); }
     /// Area of the specimen at a platen (m^2; 0 bottom, 1 top): that of the polygon of the ring there.
-    double end_section(int platen) const {
-        const int ring = platen == bottom_platen ? 0 : rings_ - 1;
-        double sum = 0.0;
-        for (int i = 0; i < around_; ++i) sum += 0.5 * visible_[tile(ring, i)].width() * apothem_[tile(ring, i)];
-        return sum;
-    }
+    double end_section(int platen) const { return ring_area(platen == bottom_platen ? 0 : rings_ - 1); }
     /// Axial stress of the laboratory, sigma_3 + q (Pa): boundaries/axial.hpp.
     double axial_stress(std::span<const facet_load> loads) const { return boundaries::axial_stress(*this, loads); }
-    /// |sum F - sigma sum A| / (sigma sum A) of the lateral wall for the target stress sigma (Pa, > 0).
-    double confining_error(std::span<const facet_load> loads, double sigma) const {
-        return std::abs(lateral_force(loads) - sigma * lateral_area_) / (sigma * lateral_area_);
-    }
     /// Rate of work done on the specimen by all facets (W): force times inward velocity, and that of the ledges between
     /// rings, which move with the platens.
     double power(std::span<const facet_load> loads) const {
@@ -194,8 +147,8 @@ template <class = void> class tile_rings {
 
     /// Complete state, for checkpoints.
     template <class A> void archive(A& a) {
-        a(set_, rings_, around_, half_width_, dir_, platens_, apothem_, velocity_, visible_, ring_smallest_, edge_,
-          volume_, lateral_area_, lateral_speed_);
+        facet_rings<>::archive(a);
+        a(half_width_, visible_, ring_smallest_, edge_);
     }
 
   protected:
@@ -211,34 +164,24 @@ template <class = void> class tile_rings {
     /// radius leaves no room for the smallest pebble.
     tile_rings(int rings, const cylinder_settings& of_checked_sizes);
 
-    static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
-    std::size_t tile(int ring, int i) const { return index(ring * around_ + i); }
     /// A tile that shows less than 5 % of its regular width is led by its neighbours: its own area says nothing.
     bool hidden(int ring, int i) const {
         return visible_[tile(ring, i)].width() < 0.05 * regular_width(around_, ring_smallest_[index(ring)]);
     }
 
-    cylinder_settings set_;
-    int rings_ = 1;
-    int around_ = 0;
     double half_width_ = 0.0;
-    directions dir_;
-    platens platens_;
-    std::vector<double> apothem_;  // per tile, ring-major
-    std::vector<double> velocity_; // per tile, inward
     std::vector<interval> visible_;
     std::vector<double> ring_smallest_; // per ring: least apothem
     std::vector<double> edge_;          // heights (m): ring k lies between edge_[k] and edge_[k + 1]
-    double volume_ = 0.0;
-    double lateral_area_ = 0.0;
-    double lateral_speed_ = 0.0; // largest |velocity_|
 
   private:
-    double tile_height() const { return height() / rings_; }
     /// Upward velocity (m/s) of the edge below a ring; the one above the last ring is number rings_.
-    double edge_velocity(int ring) const {
-        const double share = static_cast<double>(ring) / rings_;
-        return (1.0 - share) * platens_.velocity[0] - share * platens_.velocity[1];
+    double edge_velocity(int ring) const { return rise(static_cast<double>(ring) / rings_); }
+    /// Area of a ring's polygon (m^2).
+    double ring_area(int ring) const {
+        double sum = 0.0;
+        for (int i = 0; i < around_; ++i) sum += 0.5 * visible_[tile(ring, i)].width() * apothem_[tile(ring, i)];
+        return sum;
     }
     /// Ring at a height; the end ones reach on for ever.
     int ring_at(double z) const {
@@ -281,26 +224,15 @@ template <class = void> class tile_rings {
                   std::array<half_slab, max_slabs>& slabs, std::size_t& n) const;
     void refresh();
     void check_state() const;
-    double lateral_force(std::span<const facet_load> loads) const {
-        double sum = 0.0;
-        for (int f = first_lateral_facet; f < facet_count(); ++f) sum += loads[index(f)].force;
-        return sum;
-    }
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
 
 template <class X>
 tile_rings<X>::tile_rings(int rings, const cylinder_settings& of_checked_sizes)
-    : set_(of_checked_sizes), rings_(rings) {
-    around_ = set_.tiles_per_ring;
-    half_width_ = half_width_without_slit(around_, set_.largest_radius, set_.largest_step);
-    dir_ = directions(around_);
-    platens_ = {set_.bottom, set_.top, {}};
-    const std::size_t all = index(rings_) * index(around_);
-    apothem_.assign(all, set_.radius);
-    velocity_.assign(all, 0.0);
-    visible_.resize(all);
+    : facet_rings<>(rings, of_checked_sizes, of_checked_sizes.radius),
+      half_width_(half_width_without_slit(around_, set_.largest_radius, set_.largest_step)) {
+    visible_.resize(apothem_.size());
     ring_smallest_.resize(index(rings_));
     edge_.resize(index(rings_) + 1);
     refresh();
@@ -354,41 +286,23 @@ template <class X> void tile_rings<X>::refresh() {
         }
         ring_smallest_[index(k)] = smallest;
     }
-    for (int k = 0; k <= rings_; ++k) edge_[index(k)] = bottom() + k * tile_height();
-    volume_ = area * tile_height();
-    lateral_area_ = around * tile_height();
+    for (int k = 0; k <= rings_; ++k) edge_[index(k)] = bottom() + k * spacing();
+    volume_ = area * spacing();
+    lateral_area_ = around * spacing();
 }
 
 template <class X> void tile_rings<X>::check_state() const {
-    const auto stop = [this](std::string what, std::string where) {
-        throw run_error({std::move(what), std::move(where), fmt::format("specimen height {:.6g} m", height()),
-                         "the load moves the boundary faster than grains can resist, or no grain is left to resist",
-                         "load more slowly, lower the speed limit of the servo, or use more rings"});
-    };
-    // A single pebble may fill the height or the width, and be squeezed to half of its diameter: by then a run has
-    // failed anyway.
-    const double least = 0.5 * set_.smallest_radius;
-    if (!(height() >= 2.0 * least)) stop("The platens met", "platens");
+    check_height();
     for (std::size_t j = 0; j < apothem_.size(); ++j)
-        if (!(apothem_[j] >= least && apothem_[j] <= set_.largest_radius))
+        if (!(apothem_[j] >= least() && apothem_[j] <= set_.largest_radius))
             stop("The membrane is torn",
                  fmt::format("tile {} of ring {}, at {:.6g} m from the axis (allowed {:.6g} to {:.6g} m)",
-                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least,
+                             static_cast<int>(j) % around_, static_cast<int>(j) / around_, apothem_[j], least(),
                              set_.largest_radius));
 }
 
 template <class X> std::vector<facet_view> tile_rings<X>::view(std::span<const facet_load> loads) const {
-    std::vector<facet_view> out;
-    double side = 0.0;
-    for (const double r : apothem_) side = std::max(side, 1.05 * r);
-    for (int f = 0; f < first_lateral_facet; ++f) {
-        const double z = f == bottom_platen ? platens_.bottom : platens_.top;
-        out.push_back({{{{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}}},
-                       loads[index(f)].force / end_section(f),
-                       end_section(f),
-                       -1,
-                       -1});
-    }
+    std::vector<facet_view> out = view_of_platens(loads, std::array{end_section(0), end_section(1)});
     for (int k = 0; k < rings_; ++k) {
         const double low = edge_[index(k)], high = edge_[index(k + 1)];
         for (int i = 0; i < around_; ++i) {
