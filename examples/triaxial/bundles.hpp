@@ -16,31 +16,26 @@
 
 namespace triaxial {
 
-struct tiles_modified : clast::triaxial_policies_default {
-    using breakage = clast::criteria::weibull<clast::criteria::any>; // picked by name at run time
+/// Grains that a criterion, picked by name at run time, breaks.
+template <class Boundary> struct modified : clast::triaxial_policies_default {
+    using boundary = Boundary;
+    using breakage = clast::criteria::weibull<clast::criteria::any>;
 };
-struct tiles_unbreakable : clast::triaxial_policies_default {
+/// Grains that never break.
+template <class Boundary> struct unbreakable : clast::triaxial_policies_default {
+    using boundary = Boundary;
     using breakage = clast::criteria::none;
     using replacement = clast::replacements::none;
 };
-struct solid_modified : tiles_modified {
-    using boundary = clast::boundaries::solid_strips;
-};
-struct solid_unbreakable : tiles_unbreakable {
-    using boundary = clast::boundaries::solid_strips;
-};
-struct rings_modified : tiles_modified {
-    using boundary = clast::boundaries::ring_walls;
-};
-struct rings_unbreakable : tiles_unbreakable {
-    using boundary = clast::boundaries::ring_walls;
-};
-struct rigid_modified : tiles_modified {
-    using boundary = clast::boundaries::rigid_cylinder;
-};
-struct rigid_unbreakable : tiles_unbreakable {
-    using boundary = clast::boundaries::rigid_cylinder;
-};
+
+using tiles_modified = modified<clast::boundaries::tiles>;
+using tiles_unbreakable = unbreakable<clast::boundaries::tiles>;
+using rings_modified = modified<clast::boundaries::ring_walls>;
+using rings_unbreakable = unbreakable<clast::boundaries::ring_walls>;
+using solid_modified = modified<clast::boundaries::solid_strips>;
+using solid_unbreakable = unbreakable<clast::boundaries::solid_strips>;
+using rigid_modified = modified<clast::boundaries::rigid_cylinder>;
+using rigid_unbreakable = unbreakable<clast::boundaries::rigid_cylinder>;
 
 } // namespace triaxial
 
