@@ -31,7 +31,7 @@ double difference(const mat3& a, const Eigen::Matrix3d& b) { return (to_eigen(a)
 bodies::clumps some_clumps(int n) {
     random_stream random{5, 6};
     bodies::clumps s;
-    s.shapes = {shapes::tetrahedron_4(0.02)};
+    s.shapes = {shapes::tetrahedron_4(circumscribed(0.02))};
     for (int i = 0; i < n; ++i) s.add(0, any(random), orientation(random));
     for (body_motion& m : s.motion) m.v = any(random), m.w = any(random);
     return s;

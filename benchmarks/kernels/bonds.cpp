@@ -18,7 +18,8 @@ using namespace clast;
 
 void cluster_step(benchmark::State& state) {
     const auto clusters = static_cast<std::size_t>(state.range(0));
-    const shape kind = state.range(1) == 4 ? shapes::tetrahedron_4(0.02) : shapes::apollonian_14(0.02);
+    const shape kind =
+        state.range(1) == 4 ? shapes::tetrahedron_4(circumscribed(0.02)) : shapes::apollonian_14(circumscribed(0.02));
     bonds::parallel cement;
     cement.tensile_strength = cement.cohesion = 1e30;
     bonds::cluster_pool pool(bonds::lattice(kind, cement, 2650.0), 0.0);

@@ -85,7 +85,9 @@ void sphere_advance(benchmark::State& state) { spheres_step(state, damped(state)
 BENCHMARK(sphere_advance)->ArgName("damping_percent")->Arg(0)->Arg(70);
 
 void clump_advance(benchmark::State& state) {
-    clumps_step(state, state.range(1) == 4 ? shapes::tetrahedron_4(0.02) : shapes::apollonian_14(0.02),
+    clumps_step(state,
+                state.range(1) == 4 ? shapes::tetrahedron_4(circumscribed(0.02))
+                                    : shapes::apollonian_14(circumscribed(0.02)),
                 static_cast<std::size_t>(state.range(2)), damped(state));
 }
 BENCHMARK(clump_advance)
@@ -98,7 +100,7 @@ template <class Scheme> void scheme_of_spheres(benchmark::State& state, const Sc
     spheres_step(state, scheme);
 }
 template <class Scheme> void scheme_of_clumps(benchmark::State& state, const Scheme& scheme) {
-    clumps_step(state, shapes::tetrahedron_4(0.02), 4, scheme);
+    clumps_step(state, shapes::tetrahedron_4(circumscribed(0.02)), 4, scheme);
 }
 #define BENCHMARK_SCHEME(...)                                                                                          \
     BENCHMARK_CAPTURE(scheme_of_spheres, #__VA_ARGS__, __VA_ARGS__);                                                   \

@@ -106,7 +106,8 @@ inline const clast::engine<clumps>& base_of_clumps(int pebbles) {
     static std::map<int, clast::engine<clumps>> made;
     if (const auto found = made.find(pebbles); found != made.end()) return found->second;
     clast::bodies::clumps grains;
-    grains.shapes.push_back(pebbles == 4 ? clast::shapes::tetrahedron_4(0.02) : clast::shapes::apollonian_14(0.02));
+    grains.shapes.push_back(pebbles == 4 ? clast::shapes::tetrahedron_4(clast::circumscribed(0.02))
+                                         : clast::shapes::apollonian_14(clast::circumscribed(0.02)));
     return made
         .emplace(
             pebbles,

@@ -124,7 +124,7 @@ template <class Test> struct watch : observer {
 template <class B> int run(const call& c) {
     const double diameter = 0.3 * c.scale, height = 0.7 * c.scale;
     using test_type = triaxial_test<policies<B>>;
-    const mixture grain = shapes::by_name(c.shape, 0.02);
+    const mixture grain = shapes::by_name(c.shape, circumscribed(0.02));
     const auto setup = [&](protocol::packing packing) {
         return triaxial_setup<policies<B>>{.grain = grain,
                                            .diameter = quantities::length{diameter},
@@ -135,6 +135,7 @@ template <class B> int run(const call& c) {
                                            .packing = std::move(packing),
                                            .rings = c.rings > 0 ? c.rings : static_cast<int>(std::lround(36 * c.scale)),
                                            .tiles_per_ring = c.around,
+                                           .materials = table_1::of_pieces(),
                                            .inertial_number = c.inertial_number,
                                            .seed = c.seed,
                                            .rows = 500};

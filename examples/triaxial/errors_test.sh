@@ -43,12 +43,12 @@ refuse 2 "--confining: '0MPa'" -- --confining 0MPa
 refuse 2 "--confining: 'nanMPa'" -- --confining nanMPa
 refuse 2 "--strain: '80%'" "up to 50%" -- --strain 80%
 refuse 2 "--strain: '0'" -- --strain 0
-refuse 2 "--scale: '0.16'" "0.17 to 2" "wider than a grain" -- --scale 0.16
+refuse 2 "--scale: '0.22'" "0.23 to 2" "wider than a grain" -- --scale 0.22
 refuse 2 "--scale: '0.01'" "0.15 to 2" -- --scale 0.01
 refuse 2 "--scale: '9'" "0.15 to 2" -- --scale 9
-refuse 2 "--tiles-per-ring: '60'" "a tile would be 6.3 mm wide, a pebble is 9.0 mm" "6 to 42" "--scale 0.58" -- --tiles-per-ring 60
+refuse 2 "--tiles-per-ring: '60'" "a tile would be 9.4 mm wide, a pebble is 12.6 mm" "6 to 44" "--scale 0.81" -- --tiles-per-ring 60
 refuse 2 "--tiles-per-ring: '3'" "from 6 to 1000" -- --tiles-per-ring 3
-refuse 2 "--rings: '60'" "a tile would be 4.7 mm high, a pebble is 9.0 mm" "1 to 31" -- --rings 60
+refuse 2 "--rings: '60'" "a tile would be 7.0 mm high, a pebble is 12.6 mm" "1 to 33" -- --rings 60
 refuse 2 "--rings: '2.5'" "whole number" -- --rings 2.5
 refuse 2 "--rings: '12'" "solid" -- --membrane solid --rings 12
 refuse 2 "--shape" "missing.txt" -- --shape missing.txt
@@ -62,11 +62,16 @@ refuse 2 "--grading: " "missing.txt" -- --grading missing.txt
 printf '5 0\n10 20\n20 90\n' >short.txt
 refuse 2 "--grading: " "short.txt" "from 0 % to 90 %" -- --grading short.txt
 printf '5 0\n100 100\n' >coarse.txt
-refuse 2 "--grading: 'grains of 100 mm'" "up to 55 mm at scale 0.4" "--scale 0.74" -- --grading coarse.txt --tiles-per-ring 8 --rings 4
+refuse 2 "--grading: 'grains that are 140 mm wide'" "of up to 82 mm at scale 0.6" "--scale 1.03" -- --grading coarse.txt --tiles-per-ring 8 --rings 4
 refuse 2 "--packing: " "missing.txt" -- --packing missing.txt
 printf '0 0 0 0.02\n' >ball.txt
 refuse 2 "--packing: " "ball.txt:1" "orientations" -- --packing ball.txt
-refuse 2 "--strength: 'week'" "weak, medium, strong" -- --strength week
+refuse 2 "--strength: 'week'" "weak, medium, strong" "43.2MPa" -- --strength week
+refuse 2 "--strength: '0MPa'" "1kPa to 1TPa" -- --strength 0MPa
+refuse 2 "--grain-size: 'sieve'" "equivalent, circumscribed" -- --grain-size sieve
+refuse 2 "--stiffness: 'hertz'" "contact, series" -- --stiffness hertz
+refuse 2 "--contact-force: 'sum'" "resultant, single" -- --contact-force sum
+refuse 2 "--weibull: '0'" "1 to 100, or none" -- --weibull 0
 refuse 2 "--membrane: 'rubber'" "tiles, rings, solid, rigid" -- --membrane rubber
 refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --criterion tresca
 refuse 2 "--replacement: 'daughters'" "modified, none" -- --replacement daughters
@@ -87,18 +92,18 @@ refuse 2 "--preset: 'article'" "paper" -- --preset article
 
 # folders
 touch file
-refuse 2 "--out: 'file'" "It is a file" -- --out file --scale 0.2
-refuse 2 "--out: '/proc/nothing'" "cannot be created" -- --out /proc/nothing --scale 0.2
-refuse 2 "--out: '/sys/kernel'" -- --out /sys/kernel --scale 0.2
+refuse 2 "--out: 'file'" "It is a file" -- --out file --scale 0.25
+refuse 2 "--out: '/proc/nothing'" "cannot be created" -- --out /proc/nothing --scale 0.25
+refuse 2 "--out: '/sys/kernel'" -- --out /sys/kernel --scale 0.25
 mkdir results
 echo mine >results/series.csv
-refuse 2 "It has series.csv" "--resume results" "--overwrite" -- --out results --scale 0.2
+refuse 2 "It has series.csv" "--resume results" "--overwrite" -- --out results --scale 0.25
 [ "$(cat results/series.csv)" = mine ] || { echo "FAILED: a refused folder was changed"; failures=$((failures + 1)); }
 
 # resume
 refuse 2 "--resume: 'nowhere'" "the folder of an earlier run" "arguments.txt" -- --resume nowhere
 mkdir run
-echo "--scale=0.2" >run/arguments.txt
+echo "--scale=0.25" >run/arguments.txt
 refuse 2 "--strain" "cannot be changed by --resume" -- --resume run --strain 10%
 refuse 2 "checkpoint" "cannot be opened" -- --resume run
 echo "not a checkpoint at all" >run/checkpoint.clast

@@ -8,7 +8,7 @@ program=$(realpath "$1")
 rm -rf "$2"
 mkdir -p "$2"
 cd "$2"
-grains=(--shape 4B --scale 0.2 --porosity 0.6 --seed 3)
+grains=(--shape 4B --grain-size circumscribed --scale 0.2 --porosity 0.6 --seed 3)
 run=(--inertial-number 1e-3 --snapshots 0 --no-plots --quiet --threads 1)
 
 "$program" "${grains[@]}" "${run[@]}" --protocol isotropic --out whole >log

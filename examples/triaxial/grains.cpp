@@ -103,10 +103,12 @@ options with_files_in(options o, const fs::path& folder) {
 
 clast::mixture grains_of(const options& o) {
     const clast::overlaps how = o.breakable() ? clast::overlaps::refuse : clast::overlaps::as_union;
+    const clast::grain_size size = {grain_diameter, o.grain_size == "circumscribed" ? clast::size_reading::circumscribed
+                                                                                    : clast::size_reading::equivalent};
     std::vector<clast::mixture_part> parts;
     for (const named_shape& s : shapes_of(o)) {
         try {
-            parts.push_back({clast::shapes::by_name(s.name, grain_diameter, how), share_of(s, o)});
+            parts.push_back({clast::shapes::by_name(s.name, size, how), share_of(s, o)});
         } catch (const input_error& e) {
             const std::string text = e.what();
             if (text.starts_with("--")) throw;
@@ -148,14 +150,15 @@ void check_grains(options& o) {
     o.checksums.clear();
     for (const fs::path& f : files) o.checksums.push_back(checksum_of(f));
 
-    const double widest = 2.2 * grains.largest_diameter;
+    const double widest = 2.2 * grains.largest_circumscribed;
     if (o.diameter() < widest)
-        throw input_error(!o.packing.empty()  ? "--packing"
-                          : o.grading.empty() ? "--scale"
-                                              : "--grading",
-                          fmt::format("grains of {:g} mm", 1e3 * grains.largest_diameter),
-                          fmt::format("grains up to {:.0f} mm at scale {}", 1e3 * o.diameter() / 2.2, o.scale),
-                          fmt::format("Use --scale {:.2f} or more.", std::ceil(100.0 * widest / full_diameter) / 100));
+        throw input_error(
+            !o.packing.empty()  ? "--packing"
+            : o.grading.empty() ? "--scale"
+                                : "--grading",
+            fmt::format("grains that are {:.0f} mm wide", 1e3 * grains.largest_circumscribed),
+            fmt::format("a sphere around a grain of up to {:.0f} mm at scale {}", 1e3 * o.diameter() / 2.2, o.scale),
+            fmt::format("Use --scale {:.2f} or more.", std::ceil(100.0 * widest / full_diameter) / 100));
     // tiles and strips have to be wider than a pebble, or one could slip through a corner
     const double largest = 2.0 * grains.largest_radius, width = tile_width(o.diameter(), o.tiles_per_ring);
     if (width < largest * (1.0 - 1e-9)) {

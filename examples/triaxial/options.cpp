@@ -35,10 +35,10 @@ constexpr double largest_scale = 2.0;
 
 /// What was typed; empty where the option was not given.
 struct raw {
-    std::string shape, grading, packing, from, porosity, strength, membrane, rings, tiles, confining, scale, strain,
-        inertial_number, criterion, weibull, replacement, birth, bond_stiffness, friction, platen_friction,
-        membrane_friction, damping, seed, threads, out, resume, save_every, snapshots, rows, stop_after, protocol,
-        preset;
+    std::string shape, grain_size, stiffness, contact_force, grading, packing, from, porosity, strength, membrane,
+        rings, tiles, confining, scale, strain, inertial_number, criterion, weibull, replacement, birth, bond_stiffness,
+        friction, platen_friction, membrane_friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
+        stop_after, protocol, preset;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -105,6 +105,10 @@ void declare(CLI::App& app, raw& r) {
         "grain: 14B, 4B, sphere, or a file with a pebble 'x y z r' per line;\nseveral with parts of the mass "
         "(1 if left out):\n14B:0.7,4B:0.3",
         "4B");
+    add("--grain-size", r.grain_size, "NAME",
+        "what 2 cm, and a size of a grading, is: equivalent (diameter of the ball of equal volume),\ncircumscribed (of "
+        "the sphere around a grain)",
+        "equivalent");
     add("--grading", r.grading, "FILE", "sieve curve: lines 'size finer', in mm and % of the mass", "all grains 20 mm");
     add("--packing", r.packing, "FILE",
         "where grains start: packing.csv of another run\n(repeat its --shape and --scale), or lines 'x y z d' (m) for "
@@ -118,20 +122,27 @@ void declare(CLI::App& app, raw& r) {
         "--seed), at "
         "its consolidation",
         "prepare one");
-    add("--strength", r.strength, "NAME", "rock of Table 1 of the paper: weak, medium, strong", "weak");
+    add("--strength", r.strength, "NAME|STRESS",
+        "rock of Table 1 of the paper: weak (23.2 MPa), medium (43.2), strong (350.7);\nor the crushing strength "
+        "F/d^2, "
+        "with bonds in the proportion of the weak rock",
+        "weak");
     add("--membrane", r.membrane, "NAME",
         "lateral boundary: tiles (each on its own), rings, solid (strips that move as one), rigid (a round cylinder)",
         "tiles");
     add("--rings", r.rings, "N", "rings of tiles over the height (V_sec)", "36 * scale");
     add("--tiles-per-ring", r.tiles, "N", "tiles, or strips, around the specimen (H_part)", "20 * scale, at least 10");
     add("--confining", r.confining, "STRESS", "confining stress in Pa, kPa, MPa or GPa", "2MPa");
-    add("--scale", r.scale, "S", "size of the specimen: 1 is 30 cm x 70 cm; grains stay 2 cm", "0.4");
+    add("--scale", r.scale, "S", "size of the specimen: 1 is 30 cm x 70 cm; grains stay 2 cm", "0.6");
     add("--strain", r.strain, "STRAIN", "axial strain at the end of shear, 25% or 0.25", "25%");
     add("--protocol", r.protocol, "NAME",
         "triaxial, isotropic (no shear), unload (shear, then back to q = 0),\nprepare (no consolidation: a specimen "
         "for --from)",
         "triaxial");
     add("--inertial-number", r.inertial_number, "I", "limit of the inertial number in shear", "1e-4");
+    add("--stiffness", r.stiffness, "NAME",
+        "what 5.8e6 N/m of Table 1 is that of: contact (of two pebbles), series (of a pebble,\nhalf of it between two)",
+        "contact");
     add("--friction", r.friction, "MU", "friction coefficient between grains", "0.3");
     add("--platen-friction", r.platen_friction, "MU",
         "friction coefficient of the platens; a contact takes the smaller of its two pieces", "0");
@@ -142,10 +153,15 @@ void declare(CLI::App& app, raw& r) {
     add("--criterion", r.criterion, "NAME",
         "when a grain breaks: nominal_force, hertz_literal, hertz_calibrated,\noctahedral, mean, major_principal, none",
         "nominal_force");
+    add("--contact-force", r.contact_force, "NAME",
+        "force of a neighbour that breaks a grain: resultant (of all its contacts, as a platen's\nin the crushing "
+        "test), single (the largest contact)",
+        "resultant");
     add("--weibull", r.weibull, "M",
-        "Weibull modulus of the scatter of grain strengths (and of their bonds), 1 to 100;\nnone: every grain as "
-        "strong as Table 1 says",
-        "3");
+        "Weibull modulus of grain strengths (and of their bonds), 1 to 100: of their scatter and\nof their size "
+        "effect; "
+        "none: no scatter, and the size effect of 10",
+        "10");
     add("--replacement", r.replacement, "NAME", "what becomes of it: modified (bonded cluster, MPRM), none",
         "modified");
     add("--birth", r.birth, "NAME", "forces of new bonds: warm (in equilibrium with the load),\nzero (as in PFC)",
@@ -218,7 +234,7 @@ void read_tiles(options& o, const raw& r) {
         return;
     }
     // about the width of the paper's tiles, but ten for a round ring, and none narrower than a grain
-    const double grain = grains.largest_diameter;
+    const double grain = grains.largest_circumscribed;
     const int wide_enough = static_cast<int>(std::numbers::pi / std::atan(grain / o.diameter()));
     o.tiles_per_ring = std::min(std::max(10, static_cast<int>(std::lround(20 * o.scale))), wide_enough);
     if (o.tiles_per_ring < fewest_default_tiles) {
@@ -282,12 +298,29 @@ void read_run(options& o, const raw& r) {
     o.quiet = o.quiet || r.quiet;
 }
 
+void read_strength(options& o, const std::string& text) {
+    if (text.empty()) return;
+    for (const strength_class& c : strength_classes)
+        if (text == c.name) {
+            o.strength = text;
+            return;
+        }
+    const std::string allowed = "weak, medium, strong, or a crushing strength from 1kPa to 1TPa";
+    const std::string way_out = "Write for example --strength medium, or --strength 43.2MPa.";
+    if (text.find_first_of("0123456789") == std::string::npos) throw input_error("--strength", text, allowed, way_out);
+    o.strength =
+        fmt::format("{}Pa", checked<quantities::stress>(text, "--strength", 1e3, 1e12, true, allowed, way_out));
+}
+
 options checked_options(const raw& r) {
     options o;
     if (!r.shape.empty()) o.shape = r.shape;
     if (o.shape == "4b" || o.shape == "14b") o.shape.back() = 'B';
     o.grading = r.grading, o.packing = r.packing, o.from = r.from;
-    choose(o.strength, r.strength, "--strength", {"weak", "medium", "strong"});
+    choose(o.grain_size, r.grain_size, "--grain-size", {"equivalent", "circumscribed"});
+    choose(o.stiffness, r.stiffness, "--stiffness", {"contact", "series"});
+    choose(o.contact_force, r.contact_force, "--contact-force", {"resultant", "single"});
+    read_strength(o, r.strength);
     choose(o.membrane, r.membrane, "--membrane", {"tiles", "rings", "solid", "rigid"});
     choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload", "prepare"});
     choose(o.criterion, r.criterion, "--criterion",
@@ -328,7 +361,7 @@ options checked_options(const raw& r) {
         o.weibull = 0.0;
     else if (!r.weibull.empty())
         o.weibull = checked<quantities::ratio>(r.weibull, "--weibull", 1.0, 100.0, true, "1 to 100, or none",
-                                               "3 is usual for rockfill, 10 for intact rock cores.");
+                                               "3 is usual for rockfill, 10 for intact rock; 10 is the default.");
     if (!r.damping.empty())
         o.damping = checked<quantities::ratio>(r.damping, "--damping", 0.0, 0.95, true, "0 to 0.95", "0.7 is usual.");
     if (!r.seed.empty())
@@ -341,8 +374,8 @@ options checked_options(const raw& r) {
     read_run(o, r);
     o.overwrite = r.overwrite;
     o.out = !r.out.empty() ? fs::path(r.out)
-                           : fs::path("results") / fmt::format("{}-{}-{}-{}", grains_title(o), o.membrane, o.strength,
-                                                               stress_text(o.confining));
+                           : fs::path("results") / fmt::format("{}-{}-{}-{}", grains_title(o), o.membrane,
+                                                               strength_text(o), stress_text(o.confining));
     return o;
 }
 
@@ -378,6 +411,7 @@ void take_from(raw& r) {
                           fmt::format("There is no '{}' in it: run --protocol prepare first.", prepared_file));
     const std::vector<std::string> stored = stored_arguments(folder, "--from");
     for (const auto& [name, mine] : {std::pair<std::string, std::string*>{"--shape", &r.shape},
+                                     {"--grain-size", &r.grain_size},
                                      {"--grading", &r.grading},
                                      {"--packing", &r.packing},
                                      {"--scale", &r.scale},
@@ -437,10 +471,16 @@ std::string stress_text(double pascal) {
     return pascal >= 1e5 ? fmt::format("{:g}MPa", pascal / 1e6) : fmt::format("{:g}kPa", pascal / 1e3);
 }
 
-const strength_class& options::rock() const {
+strength_class options::rock() const {
     for (const strength_class& c : strength_classes)
         if (strength == c.name) return c;
-    throw input_error("--strength", strength, "weak, medium, strong", "");
+    const strength_class& weak = strength_classes[0];
+    const double value = clast::parse<quantities::stress>(strength, "--strength").si(), f = value / weak.characteristic;
+    return {strength, value, f * weak.bond_tension, f * weak.bond_cohesion};
+}
+
+std::string strength_text(const options& o) {
+    return o.strength.back() == 'a' ? stress_text(o.rock().characteristic) : o.strength; // "...Pa" is a stress
 }
 
 parsed parse_options(std::vector<std::string> arguments) {
@@ -488,6 +528,7 @@ std::string physics_text(const options& o) {
         text += fmt::format("{} = {}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
     };
     text += grains_text(o);
+    line("grain size", o.grain_size);
     line("porosity", o.porosity);
     line("strength", o.strength);
     line("membrane", o.membrane);
@@ -498,9 +539,11 @@ std::string physics_text(const options& o) {
     line("axial strain", o.strain);
     line("protocol", o.protocol);
     line("inertial number", o.inertial_number);
+    line("stiffness", o.stiffness);
     line("friction", o.friction);
     line("platen friction", o.platen_friction);
     line("membrane friction", o.membrane_friction);
+    line("contact force", o.contact_force);
     line("weibull", o.weibull);
     line("damping", o.damping);
     line("seed", o.seed);
@@ -520,6 +563,7 @@ std::vector<std::string> to_arguments(const options& o) {
         a.push_back(fmt::format("--{}={}{}", name, value, unit));
     };
     add("shape", o.shape);
+    add("grain-size", o.grain_size);
     if (!o.grading.empty()) add("grading", o.grading);
     if (!o.packing.empty()) add("packing", o.packing);
     if (!o.from.empty()) add("from", o.from);
@@ -533,9 +577,11 @@ std::vector<std::string> to_arguments(const options& o) {
     add("strain", o.strain);
     add("protocol", o.protocol);
     add("inertial-number", o.inertial_number);
+    add("stiffness", o.stiffness);
     add("friction", o.friction);
     add("platen-friction", o.platen_friction);
     add("membrane-friction", o.membrane_friction);
+    add("contact-force", o.contact_force);
     if (o.weibull > 0.0)
         add("weibull", o.weibull);
     else
@@ -562,26 +608,29 @@ std::string paper_preset_text() {
     };
     constexpr entry table[] = {
         {"Characteristic strength of a grain", "23.2 / 43.2 / 350.7 MPa (weak / medium / strong)", "D1",
-         "a grain is replaced when the force of a neighbour reaches 0.9 * sigma * d^2: 8.35 / 15.6 / 126 kN at d = 2 "
-         "cm (--criterion nominal_force)",
-         "Eq. 1 as printed gives 0.01 N for the weak rock, where a mean contact carries 700 N; the values are those of "
-         "crushing tests, platen "
-         "force over d^2. Eq. 1 is kept: hertz_literal, hertz_calibrated"},
+         "a grain is replaced when the force of a neighbour, the resultant of its contacts, reaches 0.9 sigma d^2: "
+         "8.35 "
+         "/ 15.6 / 126 kN at d = 2 cm (--strength, --criterion nominal_force, --contact-force resultant)",
+         "Eq. 1 as printed gives 0.01 N for the weak rock, where a mean contact carries more than 1000 N; the values "
+         "are those of crushing tests, platen force over d^2. Eq. 1 is kept: hertz_literal, hertz_calibrated"},
         {"Scatter of strength", "not given", "D1",
-         "Weibull modulus 3 about the characteristic strength, bonds of a grain scaled with it (--weibull)",
-         "a characteristic strength is the value that 37 % of grains survive; with one strength for all, no contact of "
-         "a "
-         "4B specimen at 2 MPa reaches 0.9 sigma d^2 (largest found: half of it) and nothing breaks (--weibull none)"},
+         "Weibull modulus 10 about the characteristic strength, in the size effect, too; bonds of a grain are scaled "
+         "with it (--weibull)",
+         "a characteristic strength is the value that 37 % of grains survive; with 10 many more weak grains break than "
+         "medium ones and no strong one, as in the paper's Fig. 9; --weibull none leaves one strength for all"},
         {"Bond tensile strength", "0.3e8 / 0.5e8 / 4.2e8 N/m2", "D2",
          "stress, as printed; bond radius = smaller pebble, moment contribution 1",
-         "with it the crushing strength of the clusters comes out near the first row"},
+         "not calibrated to our shapes: clusters of 4B crush near the first row, those of 14B at about three times it"},
         {"Bond cohesion", "0.6e8 / 1.0e8 / 8.4e8 N/m2", "D2", "shear strength, bond friction angle 0",
          "no angle is given"},
         {"Young's modulus, Poisson ratio", "46.8 GPa, 0.3", "D1", "enter only the Hertz criteria",
          "contacts are linear"},
         {"Linear normal, shear stiffness", "5.8e6, 2.9e6 N/m", "D6",
-         "of a piece; two in series: 2.9e6 pebble-pebble, 2.06e6 pebble-tile, 5.70e6 N/m pebble-platen",
-         "the rule of the linear model that the paper names"},
+         "of a contact of two pebbles; a pebble has twice as much in series with a wall: 2.51e6 N/m at tiles, 1.12e7 "
+         "at "
+         "platens (--stiffness contact; series: 2.9e6, 2.06e6, 5.70e6)",
+         "PFC's table of contacts takes the value of a contact; and grains are stiffer, k_n / (p d) = 145 at 2 MPa, "
+         "which is rigid enough (above 100), where half of it is 73"},
         {"Bond normal, shear stiffness", "9.6e8, 4.8e8 N/m", "D2",
          "N/m per bond, as printed (--bond-stiffness force); modulus (Pa) and per_area (Pa/m) can be chosen",
          "Pa/m would let a bond stretch by 3 cm before it fails"},
@@ -594,18 +643,26 @@ std::string paper_preset_text() {
         {"Coefficient of friction", "0.3", "D7", "between pebbles", ""},
         {"Sample initial porosity", "58 %", "D13", "from the volume of the pebbles: gaps inside a clump are voids",
          "the hulls then pack to 0.59 to 0.62, as loose packings do"},
-        {"Sample (section 2.3)", "30 cm x 70 cm", "--scale 1", "the default is scale 0.4: 12 cm x 28 cm, same grains",
+        {"Sample (section 2.3)", "30 cm x 70 cm", "--scale 1", "the default is scale 0.6: 18 cm x 42 cm, same grains",
          "minutes and not days"},
-        {"Grain size (section 2.3)", "2 cm", "D5", "diameter of the sphere around a clump",
-         "gives 9 470 grains 14B, 13 660 grains 4B at scale 1"},
+        {"Grain size (section 2.3)", "2 cm", "D5",
+         "diameter of the ball of the same volume, in F/d^2, inertial number and gradings: 4961 grains of either shape "
+         "at scale 1; the spheres around them have 28.0 (4B) and 24.8 mm (14B) (--grain-size equivalent)",
+         "so PFC means the diameter of a clump, and the paper's sphericity the same volume; circumscribed gives 13 658 "
+         "and 9471 smaller grains"},
         {"Shapes (Fig. 5)", "14 balls, 4 balls", "D4",
          "14B: 6 + 8 balls in a sphere, 36 bonds; 4B: regular tetrahedron, 6 bonds",
          "no coordinates are given; --shape FILE takes others"},
-        {"Membrane (section 2.2)", "H_part 20, V_sec 12 / 24 / 36", "D8, D9",
-         "the polygon surrounds the 30 cm circle; the gap rule uses the smallest pebble",
-         "tiles of V_sec 36 are 1.94 cm high, less than a grain"},
+        {"Membrane (section 2.2)", "H_part 20, V_sec 12 / 24 / 36", "D8",
+         "the polygon surrounds the 30 cm circle; the centres of tiles are the nodes of one closed surface, vertical "
+         "at "
+         "the platens",
+         "the paper's rectangles leave ledges, which carried up to a quarter of the axial force; a membrane cannot"},
+        {"Gaps between tiles (Fig. 4)", "smallest particle", "D9",
+         "none: two nodes above each other may differ by 0.9 of their distance", "a joined surface does not gape"},
         {"Tile velocity (section 2.3)", "0.01 mm/s", "D10",
-         "limited by inertial number and by overlap per step instead",
+         "at most 6 I sqrt(sigma_3 / rho) R / d, 0.12 m/s at scale 1: six times as fast as a specimen widens that is "
+         "sheared at I = 1e-4",
          "at 0.01 mm/s a tile would need 750 s to bulge 5 %, the test lasts 2 s"},
         {"Tolerance of stress (section 2.3)", "0.1 %", "D15",
          "servo v = 0.5 (F_target - F)/(K dt) for each tile; 0.1 % holds for the mean",

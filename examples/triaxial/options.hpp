@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace triaxial {
@@ -16,9 +17,9 @@ enum class bond_reading : std::uint8_t {
     per_area, ///< Pa/m: bond stiffness = value * area (what PFC calls pb_kn)
 };
 
-/// One of the three rocks of Table 1.
+/// One of the three rocks of Table 1, or one of its kind.
 struct strength_class {
-    const char* name;
+    std::string_view name;
     double characteristic; ///< characteristic strength of a grain, platen force over d^2 (Pa)
     double bond_tension;   ///< tensile strength of a bond (Pa)
     double bond_cohesion;  ///< cohesion of a bond (Pa)
@@ -28,27 +29,29 @@ inline constexpr strength_class strength_classes[] = {
 
 inline constexpr double full_diameter = 0.30;  ///< of the specimen at scale 1 (m), paper section 2.3
 inline constexpr double full_height = 0.70;    ///< of the specimen at scale 1 (m)
-inline constexpr double grain_diameter = 0.02; ///< at every scale, without a grading (m)
+inline constexpr double grain_diameter = 0.02; ///< nominal, at every scale, without a grading (m)
 inline constexpr int fewest_tiles = 6;         ///< in a ring: below, the polygon no longer resembles a cylinder
 
 /// Everything that can be chosen. Values are checked; SI units.
 struct options {
     // what is tested
+    std::string grain_size = "equivalent"; ///< reading of 2 cm and of gradings: "equivalent" or "circumscribed"
     std::string shape = "4B"; ///< "4B", "14B", "sphere" or the path of a file; several as in "14B:0.7,4B:0.3"
     std::string grading;      ///< path of a sieve curve; empty: all grains have 2 cm
     std::string packing;      ///< path of a packing; empty: a cloud
     std::string from;         ///< path of a prepared specimen (prepared_file); empty: it is prepared
     double porosity = 0.58;   ///< as prepared
     std::vector<std::uint64_t> checksums{}; ///< of the files above (input_files)
-    std::string strength = "weak";          ///< name of a strength class
+    std::string strength = "weak";          ///< name of a strength class, or a stress in Pa
     std::string membrane = "tiles";         ///< "solid" or "tiles"
     int rings = 14;                         ///< V_sec; 1 for solid
     int tiles_per_ring = 10;                ///< H_part
     double confining = 2e6;                 ///< (Pa)
-    double scale = 0.4;                     ///< 1 is 30 x 70 cm
+    double scale = 0.6;                     ///< 1 is 30 x 70 cm
     double strain = 0.25;                   ///< axial strain at the end of shear
     std::string protocol = "triaxial";      ///< "triaxial", "isotropic", "unload" or "prepare"
     double inertial_number = 1e-4;          ///< limit in shear
+    std::string stiffness = "contact";      ///< what 5.8e6 N/m of Table 1 is that of: "contact" or "series" (a piece)
     double friction = 0.3;                  ///< between pebbles
     double platen_friction = 0.0;           ///< of the platens
     double membrane_friction = 0.0;         ///< of the membrane
@@ -56,7 +59,9 @@ struct options {
     std::uint64_t seed = 1;
     // how grains break
     std::string criterion = "nominal_force";
-    double weibull = 3.0;                 ///< Weibull modulus of the scatter of grain strengths, 0: none
+    std::string contact_force = "resultant"; ///< what breaks a grain: "resultant" of a neighbour or "single" contact
+    double weibull =
+        10.0; ///< Weibull modulus of scatter and size effect of strengths; 0: no scatter, size effect of 10
     std::string replacement = "modified"; ///< "modified" or "none"
     std::string birth = "warm";           ///< "warm" or "zero"
     bond_reading bond_stiffness_reading = bond_reading::force;
@@ -76,7 +81,7 @@ struct options {
 
     [[nodiscard]] double diameter() const { return full_diameter * scale; } ///< of the specimen (m)
     [[nodiscard]] double height() const { return full_height * scale; }     ///< of the specimen (m)
-    [[nodiscard]] const strength_class& rock() const;                       ///< the strength class by its name
+    [[nodiscard]] strength_class rock() const; ///< the strength class by its name, or of its stress
     [[nodiscard]] bool breakable() const { return criterion != "none" && replacement != "none"; }
 };
 
@@ -96,6 +101,9 @@ std::string physics_text(const options& o);
 std::vector<std::string> to_arguments(const options& o);
 inline constexpr const char* arguments_file = "arguments.txt";
 inline constexpr const char* prepared_file = "prepared.clast"; ///< the specimen as prepared, for --from
+
+/// Name of the rock, or "30MPa": short text of its strength.
+std::string strength_text(const options& o);
 
 /// "2MPa", "150kPa": short text of a stress (Pa).
 std::string stress_text(double pascal);

@@ -385,7 +385,7 @@ void result_folder::finish(const run_facts& facts) {
     }
 
     fmt::print("\n{} {}, {} membrane, {}: {} grains, {} pebbles, {} steps in {}\n", grains_title(options_),
-               options_.strength, options_.membrane, stress_text(options_.confining), facts.grains, facts.pebbles,
+               strength_text(options_), options_.membrane, stress_text(options_.confining), facts.grains, facts.pebbles,
                n.steps, time_text(n.wall_time));
     if (n.sheared) {
         fmt::print("  peak q              {:8.3f} MPa at axial strain {:.1f} %\n", n.peak_q.value / 1e6,

@@ -9,7 +9,7 @@ rm -rf "$2"
 mkdir -p "$2"
 cd "$2"
 # a coarse toy under a high pressure: the weakest of its few grains break in consolidation and in shear
-arguments=(--scale 0.2 --strain 1% --confining 4MPa --weibull 2 --inertial-number 1e-3 --snapshots 2 --no-plots --quiet)
+arguments=(--scale 0.25 --strain 1% --confining 4MPa --weibull 2 --inertial-number 1e-3 --snapshots 2 --no-plots --quiet)
 
 "$program" "${arguments[@]}" --threads 1 --out whole
 test "$(wc -l <whole/series.csv)" -gt 20

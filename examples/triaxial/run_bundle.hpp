@@ -159,7 +159,7 @@ inline std::vector<clast::stage> stages_of(const options& o) {
 
 template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
     using namespace clast;
-    table_1 materials;
+    table_1 materials = o.stiffness == "series" ? table_1::of_pieces() : table_1{};
     materials.pebble.friction = o.friction;
     materials.platen.friction = o.platen_friction;
     materials.membrane.friction = o.membrane_friction;
@@ -168,7 +168,11 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
             const std::string name = o.criterion == "hertz_calibrated" ? "hertz_contact"
                                      : o.criterion == "mean"           ? "mean_stress"
                                                                        : o.criterion;
-            return {criteria::by_name(name, criteria::crushing_strength(o.rock().characteristic, grain_diameter, 10.0)),
+            const criteria::crushing_strength strength(o.rock().characteristic, grain_diameter,
+                                                       o.weibull > 0.0 ? o.weibull : 10.0);
+            const auto which =
+                o.contact_force == "single" ? criteria::force_of::contact : criteria::force_of::neighbour;
+            return {criteria::by_name(name, strength, which),
                     o.weibull > 0.0 ? o.weibull : std::numeric_limits<double>::infinity(), o.seed};
         } else {
             return {};

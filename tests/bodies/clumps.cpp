@@ -17,7 +17,7 @@ using namespace clast;
 
 TEST_CASE("a clump that is added has its pebbles in a row, turned and moved, and owns them") {
     bodies::clumps s;
-    s.shapes = {shapes::tetrahedron_4(0.02), shapes::sphere(0.01)};
+    s.shapes = {shapes::tetrahedron_4(circumscribed(0.02)), shapes::sphere(0.01)};
     const quaternion q = unit(quaternion{1.0, 0.2, -0.5, 0.4});
     CHECK(s.add(1, {1, 2, 3}, {}) == 0);
     CHECK(s.add(0, {0.1, -0.2, 0.3}, q) == 1);
@@ -53,7 +53,7 @@ TEST_CASE("mass, inertia and solid volume are those of the pebbles") {
 
 TEST_CASE("a specimen comes back from an archive") {
     bodies::clumps s, copy;
-    s.shapes = {shapes::apollonian_14(0.02)};
+    s.shapes = {shapes::apollonian_14(circumscribed(0.02))};
     s.add(0, {1, 2, 3}, unit(quaternion{1.0, 0.2, -0.5, 0.4}));
     s.turning[0].l = {1, 2, 3};
     s.losses[0].friction = 5.0;
@@ -65,7 +65,7 @@ TEST_CASE("a specimen comes back from an archive") {
 
 TEST_CASE("clumps move as one alone, however many move together, and their wanted pebbles follow") {
     bodies::clumps s;
-    s.shapes = {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.03)};
+    s.shapes = {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.03))};
     random_stream random{5, 1};
     const auto any = [&](double size) { return uniform(random, 0.0, size) * direction(random); };
     constexpr std::size_t n = 23; // a whole strip, a whole block of four, and three more
@@ -135,7 +135,7 @@ TEST_CASE("clumps move as one alone, however many move together, and their wante
 
 TEST_CASE("a clump of half the size of its shape is one of the shape of half the size, to the last bit, as it moves") {
     // half, because then all powers of the scale are exact
-    const shape big = shapes::apollonian_14(0.04), small = scaled_to(big, 0.5 * big.diameter);
+    const shape big = shapes::apollonian_14(circumscribed(0.04)), small = scaled_by(big, 0.5);
     random_stream random{5, 3};
     bodies::clumps by_scale, by_shape;
     by_scale.shapes = {big}, by_shape.shapes = {small};
@@ -205,7 +205,7 @@ TEST_CASE("a spin that is set has its angular momentum, and about an axis whose 
 
 TEST_CASE("a clump that is split goes on in parts: tables in order, nothing lost") {
     bodies::clumps s;
-    s.shapes = {shapes::apollonian_14(0.02), shapes::tetrahedron_4(0.01)};
+    s.shapes = {shapes::apollonian_14(circumscribed(0.02)), shapes::tetrahedron_4(circumscribed(0.01))};
     for (int k = 0; k < 3; ++k) s.add(k == 1 ? 0 : 1, {0.1 * k, -0.2, 0.3}, unit(quaternion{1.0, 0.2, -0.5, 0.1 * k}));
     s.motion[1].v = {1, 2, 3};
     s.turning[1].l = {2e-5, -1e-5, 3e-5};

@@ -188,7 +188,7 @@ TEST_CASE("sub-steps turn the stiffest mode by at most one radian, and are steps
 
 TEST_CASE("a cluster without loads keeps its momentum, and with small steps its angular momentum and energy") {
     random_stream random{9, 1};
-    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)}) {
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))}) {
         const quaternion q = orientation(random);
         double drift[2], swing[2];
         for (int fine = 0; fine < 2; ++fine) {
@@ -236,7 +236,7 @@ TEST_CASE("zero-force birth under a sudden load overshoots by 1 + sqrt((1-a)/(1+
 
 TEST_CASE("a warm start stays where statics puts it, with or without damping") {
     random_stream random{9, 3};
-    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))})
         for (const double a : {0.0, 0.7}) {
             world one(s, unbreakable_bond(), a);
             const quaternion q = orientation(random);
@@ -263,7 +263,7 @@ TEST_CASE("a warm start stays where statics puts it, with or without damping") {
 
 TEST_CASE("a warm start of a cluster that flies and turns holds its bonds near their static forces") {
     random_stream random{9, 4};
-    world one(shapes::tetrahedron_4(0.02), unbreakable_bond(), 0.0);
+    world one(shapes::tetrahedron_4(circumscribed(0.02)), unbreakable_bond(), 0.0);
     const quaternion q = orientation(random);
     std::vector<pebble_load> load(4);
     for (pebble_load& p : load) p.force = 200.0 * direction(random);
@@ -283,7 +283,7 @@ TEST_CASE("a warm start of a cluster that flies and turns holds its bonds near t
 TEST_CASE("a cluster that turns steadily turns its bond forces with it") {
     // a quarter turn about z at 200 rad/s, held together by the forces of its whirl
     const double spin = 200.0, dt = 1e-6;
-    world one(shapes::tetrahedron_4(0.02), unbreakable_bond(), 0.0);
+    world one(shapes::tetrahedron_4(circumscribed(0.02)), unbreakable_bond(), 0.0);
     const std::vector<pebble_load> none(4);
     const auto born = one.pool.shape().statics(none, {}, {0, 0, spin});
     one.add({}, born);
@@ -301,7 +301,7 @@ TEST_CASE("a cluster that turns steadily turns its bond forces with it") {
 
 TEST_CASE("a cluster gives the same bits in any lane, whatever its neighbours do") {
     random_stream random{9, 5};
-    const shape s = shapes::tetrahedron_4(0.02);
+    const shape s = shapes::tetrahedron_4(circumscribed(0.02));
     const quaternion q = orientation(random);
     std::vector<pebble_load> load(4);
     std::vector<ball_motion> start(4);
@@ -429,7 +429,7 @@ TEST_CASE("damped turning: the energy that damping takes is the work that is mis
 }
 
 TEST_CASE("failures are told in the order of steps, then bonds, then lanes") {
-    world many(shapes::tetrahedron_4(0.02), parallel{}, 0.7);
+    world many(shapes::tetrahedron_4(circumscribed(0.02)), parallel{}, 0.7);
     const double strength = 30e6 / many.pool.shape().bond[0].per_area;
     for (int c = 0; c < 3; ++c) {
         std::vector<state> born(6);
@@ -447,7 +447,7 @@ TEST_CASE("failures are told in the order of steps, then bonds, then lanes") {
 TEST_CASE("work of the loads is kinetic, stored, damped and released energy, through all breaks") {
     double error[2];
     for (int fine = 0; fine < 2; ++fine) {
-        world one(shapes::apollonian_14(0.02), parallel{}, 0.3);
+        world one(shapes::apollonian_14(circumscribed(0.02)), parallel{}, 0.3);
         one.add();
         random_stream random{9, 8};
         for (pebble_load& p : one.load) p.force = 3000.0 * direction(random);
@@ -469,7 +469,7 @@ TEST_CASE("work of the loads is kinetic, stored, damped and released energy, thr
 
 TEST_CASE("a pool that went through an archive continues with the same bits") {
     random_stream random{9, 9};
-    const shape s = shapes::tetrahedron_4(0.02);
+    const shape s = shapes::tetrahedron_4(circumscribed(0.02));
     world a(s, parallel{}, 0.7);
     for (int c = 0; c < 11; ++c) a.add(orientation(random)); // not a whole number of batches
     for (pebble_load& p : a.load) p = {3000.0 * direction(random), 2.0 * direction(random)};
@@ -487,7 +487,7 @@ TEST_CASE("a pool that went through an archive continues with the same bits") {
 
 TEST_CASE("clusters that change seats keep their bits and the order in which they break") {
     random_stream random{9, 11};
-    world plain(shapes::tetrahedron_4(0.02), parallel{}, 0.7);
+    world plain(shapes::tetrahedron_4(circumscribed(0.02)), parallel{}, 0.7);
     for (int c = 0; c < 21; ++c) // some fall apart, some lose a bond or two, some stay whole
         plain.add(orientation(random), {}, c % 3 == 0 ? 50.0 : c % 3 == 1 ? 1.0 : 0.2);
     for (pebble_load& p : plain.load) p = {4000.0 * direction(random), 2.0 * direction(random)};
@@ -538,7 +538,7 @@ TEST_CASE("clusters that change seats keep their bits and the order in which the
 TEST_CASE(
     "a cluster of a quarter of size and density of its lattice is one of that size and density, to the last bit") {
     // powers of four, because then roots are exact, too; frequencies of the readings are 8, 2 and 4 times as high
-    const shape big = shapes::tetrahedron_4(0.08), small = scaled_to(big, 0.25 * big.diameter);
+    const shape big = shapes::tetrahedron_4(circumscribed(0.08)), small = scaled_by(big, 0.25);
     for (const stiffness_reading reading :
          {stiffness_reading::force, stiffness_reading::per_area, stiffness_reading::modulus}) {
         parallel bond;
@@ -585,7 +585,7 @@ TEST_CASE(
 }
 
 TEST_CASE("clusters of many sizes side by side: each has the bits that it has alone, and the steps that it needs") {
-    const shape s = shapes::tetrahedron_4(0.02);
+    const shape s = shapes::tetrahedron_4(circumscribed(0.02));
     random_stream random{9, 22};
     const double dt = 2e-6;
     world all(s, parallel{}, 0.7);
@@ -621,7 +621,7 @@ TEST_CASE("clusters of many sizes side by side: each has the bits that it has al
         whole += all.pool.intact_bonds(c) == 6;
         for (std::size_t k = 0; k < 4; ++k) REQUIRE(all.motion[4 * c + k].velocity == alone[c].motion[k].velocity);
         // the highest mode of that size turns by a radian at most, and not by much less
-        const lattice own(scaled_to(s, scale[c] * 0.02), parallel{}, density);
+        const lattice own(scaled_to(s, circumscribed(scale[c] * 0.02)), parallel{}, density);
         const double far = 1e-3; // s: many steps, so that rounding up to a whole number says little
         CHECK(all.pool.substeps(far, {scale[c]}) >= far * own.highest_frequency);
         CHECK(all.pool.substeps(far, {scale[c]}) <= 1.2 * far * own.highest_frequency + 1.0);
@@ -646,7 +646,7 @@ TEST_CASE("clusters of many sizes side by side: each has the bits that it has al
 }
 
 TEST_CASE("a bond across a gap turns no grain") {
-    shape s = shapes::tetrahedron_4(0.02);
+    shape s = shapes::tetrahedron_4(circumscribed(0.02));
     for (shape_pebble& p : s.pebbles) p.radius *= 1.0 - 4e-4;
     random_stream random{9, 10};
     for (const bool breaks : {false, true}) { // also while it lets go
@@ -667,7 +667,7 @@ TEST_CASE("a bond across a gap turns no grain") {
 }
 
 TEST_CASE("a cluster that is dissolved has no bond, no energy and no seat among the living") {
-    cluster_pool pool(lattice(shapes::tetrahedron_4(0.02), parallel{}, 2650.0), 0.0);
+    cluster_pool pool(lattice(shapes::tetrahedron_4(circumscribed(0.02)), parallel{}, 2650.0), 0.0);
     std::vector<state> born(6);
     for (state& s : born) s.n = 100.0;
     for (int k = 0; k < 3; ++k) pool.add(born);

@@ -42,7 +42,8 @@ shape shrunk(shape s, double share) {
     return make_shape(s.name, s.pebbles);
 }
 std::vector<shape> shapes_of_test() {
-    return {chain(1, 0.004), chain(6, 0.004), shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02), lump()};
+    return {chain(1, 0.004), chain(6, 0.004), shapes::tetrahedron_4(circumscribed(0.02)),
+            shapes::apollonian_14(circumscribed(0.02)), lump()};
 }
 
 std::vector<pebble_load> any_load(random_stream& random, std::size_t n) {
@@ -124,8 +125,8 @@ Eigen::VectorXd held_chain(const lattice& l, int component) {
 
 TEST_CASE("bond stiffness: symmetric, and a rigid motion costs nothing in exactly six ways") {
     std::vector<shape> all = shapes_of_test();
-    all.push_back(shrunk(shapes::tetrahedron_4(0.02), 4e-4));
-    all.push_back(shrunk(shapes::apollonian_14(0.02), 1e-5));
+    all.push_back(shrunk(shapes::tetrahedron_4(circumscribed(0.02)), 4e-4));
+    all.push_back(shrunk(shapes::apollonian_14(circumscribed(0.02)), 1e-5));
     for (const shape& s : all) {
         const lattice l(s, parallel{}, density);
         const Eigen::MatrixXd k = eigen(l.stiffness());
@@ -237,8 +238,8 @@ TEST_CASE("the tip-loaded beam of the PFC manual: 200 in long, 8 in round, E 1e4
 TEST_CASE("statics: loads, bonds and inertia balance on every pebble, for any load, orientation and spin") {
     random_stream random{8, 2};
     std::vector<shape> all = shapes_of_test();
-    for (const double gap : {1e-6, 3e-5, 4e-4}) all.push_back(shrunk(shapes::tetrahedron_4(0.02), gap));
-    all.push_back(shrunk(shapes::apollonian_14(0.02), 1e-4));
+    for (const double gap : {1e-6, 3e-5, 4e-4}) all.push_back(shrunk(shapes::tetrahedron_4(circumscribed(0.02)), gap));
+    all.push_back(shrunk(shapes::apollonian_14(circumscribed(0.02)), 1e-4));
     for (const stiffness_reading reading :
          {stiffness_reading::force, stiffness_reading::per_area, stiffness_reading::modulus}) {
         parallel m;
@@ -308,7 +309,7 @@ TEST_CASE("a chain that is pulled, accelerated, or whirled bears the textbook fo
 }
 
 TEST_CASE("a regular tetrahedron pulled at two opposite edges: its bonds share as symmetry and statics demand") {
-    const lattice l(shapes::tetrahedron_4(0.02), parallel{}, density);
+    const lattice l(shapes::tetrahedron_4(circumscribed(0.02)), parallel{}, density);
     // pull the pebbles with z > 0 up and the others down: two bonds lie across, four bear the pull at 45 degrees
     std::vector<pebble_load> load(4);
     for (std::size_t i = 0; i < 4; ++i) load[i].force = {0, 0, l.offset[i].z > 0 ? 100.0 : -100.0};
@@ -330,7 +331,7 @@ TEST_CASE("a regular tetrahedron pulled at two opposite edges: its bonds share a
 
 TEST_CASE("statics agrees with a minimum-norm solution found in another way") {
     random_stream random{8, 4};
-    for (const shape& s : {shapes::tetrahedron_4(0.02), lump()}) {
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), lump()}) {
         const lattice l(s, parallel{}, density);
         const auto n = static_cast<Eigen::Index>(6 * l.size());
         // self-balanced loads: stretch every bond at random

@@ -12,14 +12,14 @@ using namespace clast;
 using namespace clast::bonds;
 
 TEST_CASE("frequencies of a lattice of another size and density go with the root of the stiffness of the similar one") {
-    const shape s = shapes::apollonian_14(0.02);
+    const shape s = shapes::apollonian_14(circumscribed(0.02));
     for (const stiffness_reading reading :
          {stiffness_reading::force, stiffness_reading::per_area, stiffness_reading::modulus}) {
         parallel bond;
         bond.reading = reading;
         const lattice own(s, bond, 2650.0);
         for (const likeness to : {likeness{0.3, 1.0}, likeness{2.5, 1.0}, likeness{1.0, 3.0}, likeness{0.7, 0.4}}) {
-            const lattice other(scaled_to(s, to.scale * s.diameter), bond, to.density * 2650.0);
+            const lattice other(scaled_by(s, to.scale), bond, to.density * 2650.0);
             const double ratio = other.highest_frequency / own.highest_frequency;
             CHECK(std::sqrt(to.stiffness(own.stiffness_power)) == Approx(ratio).epsilon(1e-9));
             const double rounded = std::exp2(0.25 * to.frequency_class(own.stiffness_power));

@@ -65,7 +65,8 @@ TEST_CASE("a bond is a disc of the smaller radius times its multiplier") {
 }
 
 TEST_CASE("the three readings of the bond stiffness in Table 1") {
-    const auto pebbles_4 = shapes::tetrahedron_4(0.02).pebbles, pebbles_14 = shapes::apollonian_14(0.02).pebbles;
+    const auto pebbles_4 = shapes::tetrahedron_4(circumscribed(0.02)).pebbles,
+               pebbles_14 = shapes::apollonian_14(circumscribed(0.02)).pebbles;
     const double r4 = pebbles_4.front().radius, small = pebbles_14.back().radius, big = pebbles_14.front().radius;
     CHECK(r4 == Approx(4.495e-3).epsilon(1e-4));
     struct row {

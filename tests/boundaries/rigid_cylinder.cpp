@@ -70,7 +70,7 @@ engine_settings<spheres_inside> sphere_settings() {
 }
 /// 40 clumps packed from a cloud by servo control to 100 kPa, at rest. mu: friction of the wall.
 engine<clumps_inside> packed(double mu = 0.0) {
-    const shape grain = shapes::tetrahedron_4(0.02);
+    const shape grain = shapes::tetrahedron_4(circumscribed(0.02));
     bodies::clumps sp = scenes::empty(grain);
     const double radius = 0.065;
     protocol::add_cloud(sp, 0, 40, {radius, -radius, radius}, 1);
@@ -269,7 +269,7 @@ TEST_CASE("a rough rigid cylinder stands still along the axis, and the audit wit
 
 TEST_CASE("a triaxial test runs in a rigid cylinder, from cloud to shear") {
     using namespace literals;
-    triaxial_setup<clumps_inside> setup{.grain = shapes::tetrahedron_4(0.02),
+    triaxial_setup<clumps_inside> setup{.grain = shapes::tetrahedron_4(circumscribed(0.02)),
                                         .diameter = 9_cm,
                                         .height = 10_cm,
                                         .confining = 200_kPa,

@@ -9,7 +9,7 @@ inline constexpr clast::contacts::linear stiff{3e6, 1.5e6, 0.3};
 
 inline clast::bodies::clumps one_grain() {
     clast::bodies::clumps grains;
-    grains.add(grains.kind_of(clast::shapes::tetrahedron_4(0.02)), {}, {});
+    grains.add(grains.kind_of(clast::shapes::tetrahedron_4(clast::circumscribed(0.02))), {}, {});
     return grains;
 }
 

@@ -29,7 +29,7 @@ struct stranger : scene_observer<scenes::breakable<>> {
 static_assert(std::is_base_of_v<observer, idle> && !std::is_abstract_v<idle> && !std::is_abstract_v<blind>);
 
 std::uint64_t end_of(observer& watch) {
-    triaxial_test<rigid> test({.grain = shapes::tetrahedron_4(0.02),
+    triaxial_test<rigid> test({.grain = shapes::tetrahedron_4(circumscribed(0.02)),
                                .diameter = 66_mm,
                                .height = 75_mm,
                                .confining = 200_kPa,

@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE("what a scheme remembers of each body is kept, and saved", ""
     using P = bundle<counts, TestType>;
     TestType s;
     if constexpr (TestType::turns) {
-        s.shapes = {shapes::tetrahedron_4(0.02)};
+        s.shapes = {shapes::tetrahedron_4(circumscribed(0.02))};
         s.add(0, {0, 0, 0}, {}), s.add(0, {0.05, 0, 0}, {});
     } else
         s.add({0, 0, 0}, 0.01), s.add({0.05, 0, 0}, 0.01);

@@ -123,7 +123,7 @@ TEMPLATE_TEST_CASE("held bodies keep their velocity to the last bit, and damping
                    rocks) {
     typename TestType::body s;
     if constexpr (TestType::body::turns) {
-        s = scenes::empty(shapes::tetrahedron_4(2.0 * r));
+        s = scenes::empty(shapes::tetrahedron_4(circumscribed(2.0 * r)));
         s.add(0, {}, unit(quaternion{1, 0.2, 0.3, 0.4}));
         s.add(0, {0.3 * r, 0, 2.1 * r}, {});
     } else {
@@ -195,7 +195,7 @@ TEST_CASE("a prescribed spin drives a sphere's neighbour by friction, and of a c
     CHECK(e.totals().boundary_work > e.grains.kinetic_energy(1));
     CHECK(std::abs(scenes::residual(e) - open) < 0.01 * e.totals().boundary_work);
 
-    bodies::clumps rock = scenes::empty(shapes::tetrahedron_4(2.0 * r));
+    bodies::clumps rock = scenes::empty(shapes::tetrahedron_4(circumscribed(2.0 * r)));
     rock.add(0, {}, {});
     engine<rocks> c = scene_of<rocks>(rock, 0.2);
     c.constraint.spin(0, {0, 0, 2.0});

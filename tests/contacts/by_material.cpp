@@ -113,7 +113,7 @@ TEST_CASE("clumps of two materials and densities: heavier ones are, and friction
     struct rocks : scenes::unbreakable<> {
         using contact = two_rocks;
     };
-    bodies::clumps s = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps s = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     s.add(0, {-0.02, 0, 0}, {}), s.add(0, {0.02, 0, 0}, {}, 0.5);
     s.set_material(1, 1, 2.0);
     CHECK(s.body_mass(1) == Approx(0.25 * s.body_mass(0)).epsilon(1e-14));

@@ -34,6 +34,15 @@ TEST_CASE("nominal force: the limit grows as d^(2 - 3/m) and with the strength o
     CHECK(c.limit(large) / c.limit(small) == Approx(1.3 * std::pow(4.0, 1.4)).epsilon(1e-13));
 }
 
+TEST_CASE("nominal force: the resultant of a neighbour counts, or the largest contact where that is asked for") {
+    criteria::grain_load load;
+    load.diameter = 0.02, load.largest_force = 9280.0, load.largest_single = 2320.0;
+    nominal_force c{crushing_strength(23.2e6)};
+    CHECK(c.utilisation(load) == Approx(1.0).epsilon(1e-14));
+    c.which = criteria::force_of::contact;
+    CHECK(c.utilisation(load) == Approx(0.25).epsilon(1e-14));
+}
+
 TEST_CASE("nominal force: only the largest force counts, and no force is no utilisation") {
     const nominal_force c{crushing_strength(43.2e6)};
     const double two = c.utilisation(test::crushed(0.02, 2e-6, 5000.0));

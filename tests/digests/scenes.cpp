@@ -108,7 +108,7 @@ struct clumps_14_break_in_tiles {
     static engine<policies> start(int threads) {
         auto s =
             cut_in_ranges(scenes::settings<policies>(1e6, 0.08), threads); // Pa; the share of the strength of bonds
-        return scenes::packed<policies>(s, shapes::apollonian_14(0.02), 60, 0.052, 2e5, 2000);
+        return scenes::packed<policies>(s, shapes::apollonian_14(circumscribed(0.02)), 60, 0.052, 2e5, 2000);
     }
     static void press(engine<policies>& e) {
         e.breakage_on = true;
@@ -124,7 +124,7 @@ struct clumps_4_in_ring_walls {
     static constexpr std::int64_t steps = 3000;
     static engine<policies> start(int threads) {
         return scenes::packed<policies>(cut_in_ranges(scenes::settings<policies>(), threads),
-                                        shapes::tetrahedron_4(0.02), 90, 0.062, 2e5, 2000, 2);
+                                        shapes::tetrahedron_4(circumscribed(0.02)), 90, 0.062, 2e5, 2000, 2);
     }
     static void press(engine<policies>& e) { ::press(e, 0.1); }
     static bool enough(const engine<policies>& e) { return e.boundary.axial_stress(e.loads()) > 5e4; }
@@ -148,7 +148,7 @@ struct clumps_14_in_box {
     static constexpr std::int64_t steps = 1000;
     static engine<policies> start(int threads) {
         engine<policies> e(one_law<policies>({2.9e6, 1.45e6, 0.3}, 0.7, threads),
-                           clumps(shapes::apollonian_14(0.02), 5, 0.0205), box(0.104, 2.9e6));
+                           clumps(shapes::apollonian_14(circumscribed(0.02)), 5, 0.0205), box(0.104, 2.9e6));
         e.drives = scenes::isotropic(2e5, 0.5);
         e.step(1500);
         return e;
@@ -181,7 +181,7 @@ struct clumps_4_in_cell {
     static engine<policies> start(int threads) {
         constexpr int n = 5;
         engine<policies> e(one_law<policies>({2.9e6, 1.45e6, 0.3}, 0.3, threads),
-                           clumps(shapes::tetrahedron_4(0.02), n, 0.0205),
+                           clumps(shapes::tetrahedron_4(circumscribed(0.02)), n, 0.0205),
                            spaces::periodic({0.0205 * n, 0.0205 * n, 0.0205 * n}));
         for (auto& axis : e.space.axes) axis = {.target = 1e5, .max_rate = 5.0, .gain = 0.2};
         e.step(6000);
@@ -200,7 +200,8 @@ struct clumps_4_of_hertz {
                                     .lateral_contact = {4e8},
                                     .breakage = {},
                                     .replacement = {}};
-        return scenes::packed<policies>(cut_in_ranges(s, threads), shapes::tetrahedron_4(0.02), 90, 0.062, 2e5, 2000);
+        return scenes::packed<policies>(cut_in_ranges(s, threads), shapes::tetrahedron_4(circumscribed(0.02)), 90,
+                                        0.062, 2e5, 2000);
     }
     static void press(engine<policies>& e) { ::press(e, 0.1); }
     static bool enough(const engine<policies>& e) { return e.boundary.axial_stress(e.loads()) > 1e5; }

@@ -37,7 +37,8 @@ TEST_CASE("the energy ledger of a collision closes, better with the square of th
 }
 
 TEST_CASE("the energy ledger of a packing under servo control closes to 2e-4 of the work") {
-    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 40, 0.065, 1e5, 6000);
+    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(circumscribed(0.02)), 40, 0.065,
+                                   1e5, 6000);
     const double work = e.totals().boundary_work, open = scenes::residual(e);
     e.drives = scenes::isotropic(8e5, 0.02);
     for (int k = 0; k < 6000; ++k) e.step();

@@ -124,8 +124,9 @@ TEST_CASE("a velocity that is no number stops the run with the name of the body"
 }
 
 TEST_CASE("the state of an engine comes back from an archive, and goes on with the same bits") {
-    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 1500);
-    engine<rigid> other(e.settings, scenes::empty(shapes::tetrahedron_4(0.02)),
+    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055,
+                                   2e5, 1500);
+    engine<rigid> other(e.settings, scenes::empty(shapes::tetrahedron_4(circumscribed(0.02))),
                         boundaries::solid_strips(scenes::cylinder(0.3, 0.3)));
     from_bytes(to_bytes(e), other);
     for (int k = 0; k < 300; ++k) e.step(), other.step();
@@ -135,7 +136,8 @@ TEST_CASE("the state of an engine comes back from an archive, and goes on with t
 }
 
 TEST_CASE("looking at a run changes none of its bits") {
-    auto quiet = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 1500);
+    auto quiet = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055,
+                                       2e5, 1500);
     auto watched = quiet;
     for (int k = 0; k < 300; ++k) {
         quiet.step();
@@ -150,7 +152,7 @@ TEST_CASE("looking at a run changes none of its bits") {
 TEST_CASE(
     "small copies of a large shape are grains of the small shape, to the last bit, through packing and breakage") {
     using policies = scenes::breakable<boundaries::tiles>;
-    const shape big = shapes::tetrahedron_4(0.08), small = scaled_to(big, 0.25 * big.diameter); // roots are exact, too
+    const shape big = shapes::tetrahedron_4(circumscribed(0.08)), small = scaled_by(big, 0.25); // roots are exact, too
     bodies::clumps by_shape = scenes::empty(small), by_scale = scenes::empty(big);
     protocol::add_cloud(by_shape, 0, 24, {0.04, -0.04, 0.04}, 3);
     for (std::size_t g = 0; g < by_shape.grain_count(); ++g)
@@ -170,8 +172,8 @@ TEST_CASE(
 
 TEST_CASE("grains of sizes from 2 to 5 break side by side: momentum, energy and their own strengths are kept") {
     using policies = scenes::breakable<>;
-    bodies::clumps grains = scenes::empty(shapes::tetrahedron_4(0.02));
-    bodies::clumps places = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps grains = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
+    bodies::clumps places = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     protocol::add_cloud(places, 0, 24, {0.04, -0.04, 0.04}, 3);
     for (std::size_t g = 0; g < places.grain_count(); ++g)
         grains.add(0, places.motion[g].x, places.turning[g].q, 0.2 * static_cast<double>(2 + g % 4));

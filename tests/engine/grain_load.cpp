@@ -179,10 +179,26 @@ TEST_CASE("walls of a box are neighbours of their own: opposite ones crush a gra
     CHECK(load.largest_force == Approx(kn * deep).epsilon(1e-9));
 }
 
+TEST_CASE("a platen on two pebbles of a grain is one force, and its contacts have half of it each") {
+    using policies = by_all_in<boundaries::box>;
+    const double r = 0.01, deep = 2e-4, low = r - deep;
+    bodies::clumps rock = scenes::empty(make_shape("two", {{{-r, 0, 0}, r}, {{r, 0, 0}, r}}));
+    rock.add(0, {}, {});
+    const double kn = settings_of<policies>().platen_contact.kn;
+    engine<policies> e(settings_of<policies>(), std::move(rock),
+                       boundaries::box({{-0.1, -0.1, -low}, {0.1, 0.1, low}, 3.2e8, kn}));
+    e.step();
+    std::vector<vec3> forces;
+    const criteria::grain_load load = rooms::load_of(e.state(), 0, forces);
+    CHECK(load.coordination == 2);
+    CHECK(load.largest_force == Approx(2.0 * kn * deep).epsilon(1e-9));
+    CHECK(load.largest_single == Approx(kn * deep).epsilon(1e-9));
+}
+
 TEST_CASE("a neighbour that has been replaced is one as long as its bonds hold") {
     // a tetrahedron on one tip, a sphere in the hollow of its three upper pebbles, squeezed by platens; then the
     // tetrahedron becomes a bonded cluster
-    const shape four = shapes::tetrahedron_4(0.02);
+    const shape four = shapes::tetrahedron_4(circumscribed(0.02));
     bodies::clumps rock = scenes::empty(four);
     rock.shapes.push_back(shapes::sphere(0.02));
     rock.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, -1}));

@@ -30,7 +30,7 @@ TEST_CASE("lists never miss a contact: any skin and any search give the same bit
         using P = decltype(bundle);
         auto s = scenes::settings<P>();
         s.skin = skin;
-        auto e = scenes::packed<P>(s, shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 3000);
+        auto e = scenes::packed<P>(s, shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 3000);
         e.place_all(); // pebbles that no list names are placed on demand
         return std::pair(checksum(e.grains), e.totals().renewals);
     };
@@ -45,7 +45,7 @@ TEST_CASE("lists never miss a contact: any skin and any search give the same bit
 
 TEST_CASE("every overlap at the time of a step, of pebbles or with a facet, has its force in that step") {
     auto s = scenes::settings<rigid>();
-    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 4000);
+    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 4000);
     std::size_t met = 0, missed = 0, walls = 0;
     for (int k = 0; k < 400; ++k) {
         e.place_all();

@@ -28,7 +28,7 @@ struct named {
 bodies::clumps clumps(std::size_t n, double edge) {
     random_stream random{3, n};
     bodies::clumps sp;
-    sp.shapes = {shapes::tetrahedron_4(0.03), shapes::apollonian_14(0.04)};
+    sp.shapes = {shapes::tetrahedron_4(circumscribed(0.03)), shapes::apollonian_14(circumscribed(0.04))};
     for (std::size_t k = 0; k < n; ++k) {
         const auto any = [&] { return uniform(random, -0.5 * edge, 0.5 * edge); };
         sp.add(static_cast<std::int32_t>(k % 2), {any(), any(), any()}, orientation(random));

@@ -97,8 +97,8 @@ TEST_CASE("what is wanted, and who is asked about again, follows grains that mov
 }
 
 TEST_CASE("grains whose pebbles overlap move like others, but not where they may be replaced") {
-    const shape lump =
-        scaled_to(overlapping_shape("lump", {{{0, 0, 0}, 1.0}, {{1, 0, 0}, 0.8}}, overlaps::as_union), 0.02);
+    const shape lump = scaled_to(overlapping_shape("lump", {{{0, 0, 0}, 1.0}, {{1, 0, 0}, 0.8}}, overlaps::as_union),
+                                 circumscribed(0.02));
     using rigid = scenes::unbreakable<>;
     auto s = scenes::settings<rigid>();
     s.scheme.damping = 0.0;

@@ -64,7 +64,7 @@ TEST_CASE("a pair is as far apart as its image says, and a branch goes through t
 
 TEST_CASE("the branch of a contact of clumps leads from centre to centre") {
     using P = scenes::unbreakable<>;
-    bodies::clumps two = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps two = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     two.add(0, {-0.01, 0, 0}, {}), two.add(0, {0.01, 0.001, 0.002}, unit(quaternion{1, 1, 0, 0}));
     scene<P> s(scenes::settings<P>(), two, boundaries::solid_strips(scenes::cylinder(0.1, 0.1)), {});
     const vec3 d = s.position(4) - s.position(0);
@@ -88,7 +88,7 @@ TEST_CASE("heavy contacts are told in the order of one thread, wherever they sta
 
 TEST_CASE("a scene comes back from an archive") {
     auto e = scenes::packed<scenes::unbreakable<>>(scenes::settings<scenes::unbreakable<>>(),
-                                                   shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 400);
+                                                   shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 400);
     auto copy = e.state(), other = e.state();
     other.totals = {}, other.dt = 1.0, other.heavy = {}, other.near.margins.clear();
     CHECK(checksum(other) != checksum(copy));

@@ -177,7 +177,8 @@ template <class P> double residual(const engine<P>& e) {
 }
 
 /// Two tumbling clumps that hit each other off centre, far from any wall.
-template <class P> engine<P> collision(engine_settings<P> s, const shape& grain = shapes::tetrahedron_4(0.02)) {
+template <class P>
+engine<P> collision(engine_settings<P> s, const shape& grain = shapes::tetrahedron_4(circumscribed(0.02))) {
     bodies::clumps sp = empty(grain);
     sp.add(0, {-0.011, 0.002, 0.001}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.add(0, {0.011, -0.003, 0.002}, unit(quaternion{0.4, -0.7, 0.6, 0.1}));
@@ -193,7 +194,7 @@ template <class P> engine<P> collision(engine_settings<P> s, const shape& grain 
 /// A breakable 4B clump with three pebbles on the bottom platen and one under the top platen, pressed to about `force`
 /// (N) and at rest. Platens stand still.
 template <class P> engine<P> pressed(engine_settings<P> s, double force) {
-    bodies::clumps sp = empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = empty(shapes::tetrahedron_4(circumscribed(0.02)));
     sp.add(0, {}, turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     const boundaries::cylinder_settings c = cylinder_around(sp);
     engine<P> e(std::move(s), std::move(sp), typename P::boundary(c));

@@ -184,7 +184,8 @@ double largest_bond_utilisation(const engine<brittle>& e) {
 } // namespace
 
 TEST_CASE("at the swap no momentum, angular momentum, kinetic energy, mass or position jumps") {
-    for (const shape& grain : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)}) {
+    for (const shape& grain :
+         {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))}) {
         auto s = scenes::settings<brittle>(1.0, 1e6); // the first touch replaces, and no bond breaks
         s.replacement.check_interval = 1;
         engine<brittle> e = scenes::collision(s, grain);
@@ -204,7 +205,7 @@ TEST_CASE("clusters that collide keep momentum and angular momentum, and their c
     auto s = scenes::settings<brittle>(1.0, 1e6);
     s.replacement.check_interval = 1;
     s.scheme.damping = 0.0;
-    engine<brittle> e = scenes::collision(s, shapes::tetrahedron_4(0.02));
+    engine<brittle> e = scenes::collision(s, shapes::tetrahedron_4(circumscribed(0.02)));
     engine<brittle> rigid = e;
     rigid.breakage_on = false;
     while (e.totals().replaced == 0) e.step(), rigid.step();
@@ -324,7 +325,7 @@ TEST_CASE("a grain crushed between platens ends as free balls, each bond with it
 
 TEST_CASE("breaking grains in a packing: fragments, contacts, step and ledger stay in order") {
     auto s = scenes::settings<brittle>(never, 0.03);
-    auto e = scenes::packed<brittle>(s, shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 7000);
+    auto e = scenes::packed<brittle>(s, shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 7000);
     e.drives = scenes::isotropic(2e5, 0.02);
     for (int k = 0; k < 1000; ++k) e.step();
     const double volume = e.grains.solid_volume();
@@ -388,7 +389,8 @@ TEST_CASE("breaking grains in a packing: fragments, contacts, step and ledger st
 }
 
 TEST_CASE("a clump in halves: no momentum, angular momentum, kinetic energy, mass or position jumps") {
-    for (const shape& grain : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)}) {
+    for (const shape& grain :
+         {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))}) {
         auto s = scenes::settings<halving>(1.0);
         s.scheme.damping = 0.0;
         engine<halving> e = scenes::collision(s, grain);
@@ -435,8 +437,8 @@ TEST_CASE("a clump in halves: no momentum, angular momentum, kinetic energy, mas
 }
 
 TEST_CASE("contacts go on with their histories when a grain of a packing is split") {
-    auto e =
-        scenes::packed<halving>(scenes::settings<halving>(never), shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 6000);
+    auto e = scenes::packed<halving>(scenes::settings<halving>(never), shapes::tetrahedron_4(circumscribed(0.02)), 24,
+                                     0.055, 2e5, 6000);
     engine<halving> rigid = e;
     e.settings.breakage.strength.sigma0 = 6e5;
     e.breakage_on = true;
@@ -469,7 +471,7 @@ template <class P> engine<P> crushed(int threads, bool stored) {
     auto s = scenes::settings<P>(never);
     s.run = execution(threads);
     s.contacts_per_thread = 8; // cut even small scenes
-    auto e = scenes::packed<P>(s, shapes::apollonian_14(0.02), 20, 0.045, 2e5, 3000);
+    auto e = scenes::packed<P>(s, shapes::apollonian_14(circumscribed(0.02)), 20, 0.045, 2e5, 3000);
     engine<P> fresh = e;
     const auto press = [](engine<P>& one) {
         one.settings.breakage.strength.sigma0 = 2e5;
@@ -528,7 +530,7 @@ TEST_CASE("a scene with balls beside clumps that are split keeps its momentum") 
     auto s = scenes::settings<staged>(1.0, 1e6);
     s.scheme.damping = 0.0;
     s.replacement.least_neighbours = 1, s.replacement.most_splits = 3, s.replacement.delay = 1;
-    engine<staged> e = scenes::collision(s, shapes::apollonian_14(0.02));
+    engine<staged> e = scenes::collision(s, shapes::apollonian_14(circumscribed(0.02)));
     const total start = total_of(e);
     int steps_with_balls = 0;
     bool split_beside_balls = false;
@@ -567,7 +569,7 @@ TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the l
             auto settings = scenes::settings<thawing>(1.0, strength);
             settings.scheme.damping = 0.0;
             settings.replacement.parts = parts;
-            engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+            engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(circumscribed(0.02)));
             while (e.breakage().balls.empty()) e.step();
             e.step(20);
             scene<thawing> s = e.state();
@@ -614,7 +616,7 @@ TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the l
 TEST_CASE("contacts of balls that freeze go on with their histories") {
     auto settings = scenes::settings<thawing>(1.0, 1e6);
     settings.scheme.damping = 0.0;
-    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(circumscribed(0.02)));
     while (e.breakage().balls.empty()) e.step();
     scene<thawing> s = e.state();
     rooms::renew_lists(s); // contacts have come to the list of balls

@@ -21,7 +21,7 @@ scene<rigid> before_sweep(int threads) {
     s.run = execution(threads);
     s.contacts_per_thread = 8;
     s.scheme.damping = 0.0;
-    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(0.02), 40, 0.065, 2e5, 3000);
+    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(circumscribed(0.02)), 40, 0.065, 2e5, 3000);
     scene<rigid> one = e.state();
     rooms::evaluate_walls(one, one.heavy_wall, one.heavy_grip, one.dt, 0.0);
     return one;

@@ -99,8 +99,8 @@ TEST_CASE("walls that move drag grains along, and their work is booked") {
         auto own = s;
         own.run = execution(threads), own.contacts_per_thread = 8;
         own.platen_contact.mu = own.lateral_contact.mu = 0.0; // the same packing for all
-        auto e = scenes::packed<scenes::unbreakable<boundaries::tiles>>(own, shapes::tetrahedron_4(0.02), 60, 0.052,
-                                                                        2e5, 3000);
+        auto e = scenes::packed<scenes::unbreakable<boundaries::tiles>>(own, shapes::tetrahedron_4(circumscribed(0.02)),
+                                                                        60, 0.052, 2e5, 3000);
         e.drives = scenes::isotropic(2e5, 0.02);
         for (int k = 0; k < 1500; ++k) e.step();
         e.settings.platen_contact.mu = platen, e.settings.lateral_contact.mu = membrane;
@@ -139,7 +139,7 @@ TEST_CASE("balls of broken grains rub as well") {
     using P = scenes::breakable<boundaries::tiles>;
     auto s = scenes::settings<P>(2e5, 0.03);
     s.platen_contact.mu = 0.3, s.platen_contact.ks = 0.5 * s.platen_contact.kn;
-    auto e = scenes::packed<P>(s, shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 4000);
+    auto e = scenes::packed<P>(s, shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 4000);
     e.breakage_on = true;
     e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.05};
     const double open = scenes::residual(e), work = e.totals().boundary_work;

@@ -24,7 +24,7 @@ TEST_CASE("a clump thrown at a platen comes back with its energy, and the platen
     auto s = scenes::settings<rigid>();
     s.scheme.damping = 0.0;
     s.safety = 0.05;
-    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     sp.add(0, {0, 0, -0.18}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     sp.motion[0].v = {0.0, 0.0, -1.0};
     engine<rigid> e(s, sp, boundaries::solid_strips(scenes::cylinder(0.2, 0.4)));
@@ -46,7 +46,7 @@ TEST_CASE("a platen that pushes a clump does the work that the clump receives") 
     auto s = scenes::settings<rigid>();
     s.scheme.damping = 0.0;
     s.safety = 0.05;
-    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     s.safety = 0.05;
     sp.add(0, {0, 0, -0.185}, unit(quaternion{1.0, 0.3, -0.2, 0.5}));
     engine<rigid> e(s, sp, boundaries::solid_strips(scenes::cylinder(0.2, 0.4)));
@@ -77,7 +77,7 @@ struct tells : rigid {
 } // namespace
 
 TEST_CASE("to a law a wall is flat and heavy: R is the radius of the pebble, m the mass of its body") {
-    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     sp.add(0, {}, {});
     boundaries::cylinder_settings c = scenes::cylinder_around(sp, 1e-5);
     const double r = sp.pebbles[0].radius, mass = sp.mass_of(sp.grains[0]);

@@ -22,7 +22,7 @@ template <class P> triaxial_setup<P> setup(int threads = 1, double diameter = 0.
     bond.shear_stiffness *= 0.06;
     bond.tensile_strength *= 0.06;
     bond.cohesion *= 0.06;
-    return {.grain = shapes::tetrahedron_4(0.02),
+    return {.grain = shapes::tetrahedron_4(circumscribed(0.02)),
             .diameter = quantities::length(diameter),
             .height = quantities::length(height),
             .confining = quantities::stress(2e5),

@@ -87,7 +87,7 @@ TEST_CASE("a sphere at rest presses on the floor with its weight, whatever the d
 
 TEST_CASE("so does a 4B clump on a platen") {
     for (const double damping : {0.1, 0.3, 0.7}) {
-        bodies::clumps s = scenes::empty(shapes::tetrahedron_4(0.02));
+        bodies::clumps s = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
         s.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
         const double weight = 9.81 * s.body_mass(0);
         const boundaries::cylinder_settings c = scenes::cylinder_around(s, -1e-4);

@@ -10,7 +10,7 @@
 using namespace clast;
 
 TEST_CASE("a shape alone is a mixture: as many grains of its size as come nearest to the volume") {
-    const shape s = shapes::tetrahedron_4(0.02);
+    const shape s = shapes::tetrahedron_4(circumscribed(0.02));
     const mixture m = s;
     REQUIRE(m.parts().size() == 1);
     CHECK(m.parts()[0].share == 1.0);
@@ -28,8 +28,9 @@ TEST_CASE("a shape alone is a mixture: as many grains of its size as come neares
 }
 
 TEST_CASE("shapes of a mixture share the mass, each at its own size, and the largest grains come first") {
-    const mixture m(
-        {{shapes::apollonian_14(0.02), 3.0}, {shapes::tetrahedron_4(0.03), 1.0}, {shapes::sphere(0.01), 1.0}});
+    const mixture m({{shapes::apollonian_14(circumscribed(0.02)), 3.0},
+                     {shapes::tetrahedron_4(circumscribed(0.03)), 1.0},
+                     {shapes::sphere(0.01), 1.0}});
     const double volume = 1e-3;
     double of_part[3] = {}, before = 1.0;
     for (const mixture_grain& g : m.grains_of(volume)) {
@@ -49,12 +50,13 @@ TEST_CASE("shapes of a mixture share the mass, each at its own size, and the lar
 
 TEST_CASE("a grading gives all shapes of a mixture its sizes, whatever size they are given in") {
     const grading curve({{0.01, 0.0}, {0.02, 0.4}, {0.04, 1.0}});
-    const mixture m({{shapes::apollonian_14(1.0), 0.7}, {shapes::tetrahedron_4(5.0), 0.3}}, curve);
+    const mixture m(
+        {{shapes::apollonian_14(circumscribed(1.0)), 0.7}, {shapes::tetrahedron_4(circumscribed(5.0)), 0.3}}, curve);
     CHECK(m.smallest_diameter() == 0.01);
     CHECK(m.largest_diameter() == 0.04);
     CHECK(m.d50() == Approx(curve.size_at(0.5)));
-    CHECK(m.smallest_radius() == Approx(shapes::apollonian_14(0.01).pebbles[13].radius));
-    CHECK(m.largest_radius() == Approx(shapes::tetrahedron_4(0.04).pebbles[0].radius));
+    CHECK(m.smallest_radius() == Approx(shapes::apollonian_14(circumscribed(0.01)).pebbles[13].radius));
+    CHECK(m.largest_radius() == Approx(shapes::tetrahedron_4(circumscribed(0.04)).pebbles[0].radius));
     const double volume = 0.01;
     double of_part[2] = {}, finer[2] = {}, before = 1.0;
     for (const mixture_grain& g : m.grains_of(volume)) {
@@ -70,7 +72,7 @@ TEST_CASE("a grading gives all shapes of a mixture its sizes, whatever size they
 }
 
 TEST_CASE("shares are those of the mass: a rock of half the density fills twice the room") {
-    mixture m({{shapes::sphere(0.01), 1.0, 0, 1.0}, {shapes::tetrahedron_4(0.01), 1.0, 1, 0.5}});
+    mixture m({{shapes::sphere(0.01), 1.0, 0, 1.0}, {shapes::tetrahedron_4(circumscribed(0.01)), 1.0, 1, 0.5}});
     double of_part[2] = {};
     for (const mixture_grain& g : m.grains_of(3e-4)) of_part[g.part] += m.volume(g);
     CHECK(of_part[0] == Approx(1e-4).epsilon(5e-3));
@@ -88,7 +90,21 @@ TEST_CASE("a mixture of nothing, of empty shapes or of shares that are none is r
     };
     CHECK(refusal({}).find("no shape") != std::string::npos);
     CHECK(refusal({{shape{}, 1.0}}).find("a shape with pebbles") != std::string::npos);
-    CHECK(refusal({{shapes::sphere(0.01), 1.0}, {shapes::tetrahedron_4(0.01), 0.0}}).find("share of shape '4B'") == 0);
+    CHECK(refusal({{shapes::sphere(0.01), 1.0}, {shapes::tetrahedron_4(circumscribed(0.01)), 0.0}})
+              .find("share of shape '4B'") == 0);
     CHECK(refusal({{shapes::sphere(0.01), 1.0, 0, 0.0}}).find("density ratio of shape 'sphere'") == 0);
     CHECK(refusal({{shapes::sphere(0.01), 1.0}}).empty());
+}
+
+TEST_CASE("the paper's specimen holds 4961 grains of either shape in the equivalent reading, and more in the other") {
+    const double solid = 0.42 * std::numbers::pi * 0.15 * 0.15 * 0.7; // 30 x 70 cm, porosity 58 %
+    CHECK(mixture(shapes::tetrahedron_4(0.02)).grains_of(solid).size() == 4961);
+    CHECK(mixture(shapes::apollonian_14(0.02)).grains_of(solid).size() == 4961);
+    CHECK(mixture(shapes::tetrahedron_4(circumscribed(0.02))).grains_of(solid).size() == 13658);
+    CHECK(mixture(shapes::apollonian_14(circumscribed(0.02))).grains_of(solid).size() == 9471);
+    // what walls have to suit is the sphere around the largest grain
+    const grading curve({{0.01, 0.0}, {0.04, 1.0}});
+    CHECK(mixture(shapes::tetrahedron_4(1.0), curve).largest_circumscribed() == Approx(0.0560).epsilon(2e-3));
+    CHECK(mixture(shapes::tetrahedron_4(circumscribed(1.0)), curve).largest_circumscribed() ==
+          Approx(0.04).epsilon(1e-14));
 }

@@ -31,8 +31,8 @@ TEST_CASE("pebbles that overlap are one solid, or count in full, by choice, and 
     CHECK(sum.inertia_per_density.x == Approx(0.4 * (2.0 * ball + 8.0 * ball * 4.0)).epsilon(1e-14));
     CHECK(solid.inertia_per_density.x == Approx(0.4 * (2.0 * ball + 8.0 * ball * 4.0) - of_lens).epsilon(1e-8));
     // where none overlap, nothing changes
-    const shape apart = overlapping_shape("4B", shapes::tetrahedron_4(0.02).pebbles, overlaps::as_union);
+    const shape apart = overlapping_shape("4B", shapes::tetrahedron_4(circumscribed(0.02)).pebbles, overlaps::as_union);
     CHECK(!apart.overlapping);
     CHECK(apart.bonds.size() == 6);
-    CHECK(apart.volume == make_shape("4B", shapes::tetrahedron_4(0.02).pebbles).volume);
+    CHECK(apart.volume == make_shape("4B", shapes::tetrahedron_4(circumscribed(0.02)).pebbles).volume);
 }

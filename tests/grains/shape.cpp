@@ -30,7 +30,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 } // namespace
 
 TEST_CASE("shape 4B is a regular tetrahedron of four touching pebbles in its circumscribed sphere") {
-    const shape s = shapes::tetrahedron_4(0.02);
+    const shape s = shapes::tetrahedron_4(circumscribed(0.02));
     REQUIRE(s.pebbles.size() == 4);
     CHECK(s.bonds.size() == 6);
     CHECK(s.diameter == Approx(0.02).epsilon(1e-15));
@@ -45,7 +45,7 @@ TEST_CASE("shape 4B is a regular tetrahedron of four touching pebbles in its cir
 }
 
 TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") {
-    const shape s = shapes::apollonian_14(0.02);
+    const shape s = shapes::apollonian_14(circumscribed(0.02));
     REQUIRE(s.pebbles.size() == 14);
     CHECK(s.bonds.size() == 36);
     int big_big = 0;
@@ -67,7 +67,7 @@ TEST_CASE("shape 14B is the octahedral Apollonian packing 6 + 8 with 36 bonds") 
 }
 
 TEST_CASE("the pebbles of a shape touch but do not overlap beyond rounding") {
-    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))})
         for (const shape_bond& b : s.bonds) {
             const shape_pebble& p = s.pebbles[static_cast<std::size_t>(b.a)];
             const shape_pebble& q = s.pebbles[static_cast<std::size_t>(b.b)];
@@ -76,7 +76,8 @@ TEST_CASE("the pebbles of a shape touch but do not overlap beyond rounding") {
 }
 
 TEST_CASE("4B and 14B have isotropic inertia that equals the second moments of their balls") {
-    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02), shapes::sphere(0.02)}) {
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02)),
+                           shapes::sphere(0.02)}) {
         CHECK(s.inertia_per_density.x == s.inertia_per_density.y); // bit-equal: integrators rely on it
         CHECK(s.inertia_per_density.y == s.inertia_per_density.z);
         for (int i = 0; i < 3; ++i) {
@@ -136,25 +137,26 @@ TEST_CASE("a body of revolution keeps its axis first and does not spin freely ab
 }
 
 TEST_CASE("scaling a shape scales volume with d^3 and inertia with d^5") {
-    const shape a = shapes::apollonian_14(0.02);
-    const shape b = scaled_to(a, 0.06);
-    const shape c = shapes::apollonian_14(0.06);
+    const shape a = shapes::apollonian_14(circumscribed(0.02));
+    const shape b = scaled_to(a, circumscribed(0.06));
+    const shape c = shapes::apollonian_14(circumscribed(0.06));
     CHECK(b.diameter == 0.06);
     CHECK(b.volume == Approx(27.0 * a.volume).epsilon(1e-14));
     CHECK(b.inertia_per_density.x == Approx(243.0 * a.inertia_per_density.x).epsilon(1e-14));
     CHECK(b.inertia_per_density.x == b.inertia_per_density.z);
     CHECK(c.inertia_per_density.x == Approx(b.inertia_per_density.x).epsilon(1e-14));
     CHECK(norm(c.pebbles[9].offset - b.pebbles[9].offset) < 1e-16);
-    CHECK_THROWS_AS(scaled_to(a, 0.0), input_error);
-    CHECK_THROWS_AS(scaled_to(a, std::nan("")), input_error);
-    CHECK_THROWS_AS(shapes::tetrahedron_4(-0.02), input_error);
+    CHECK_THROWS_AS(scaled_to(a, circumscribed(0.0)), input_error);
+    CHECK_THROWS_AS(scaled_to(a, circumscribed(std::nan(""))), input_error);
+    CHECK_THROWS_AS(shapes::tetrahedron_4(circumscribed(-0.02)), input_error);
 }
 
 TEST_CASE("summed-surface sphericity has its analytic values") {
     CHECK(sphericity(shapes::sphere(0.02)) == Approx(1.0).epsilon(1e-14));
-    CHECK(sphericity(shapes::tetrahedron_4(0.02)) == Approx(std::pow(4.0, -1.0 / 3.0)).epsilon(1e-14)); // 0.630
+    CHECK(sphericity(shapes::tetrahedron_4(circumscribed(0.02))) ==
+          Approx(std::pow(4.0, -1.0 / 3.0)).epsilon(1e-14)); // 0.630
     CHECK(sphericity(make_shape("two", {{{-1, 0, 0}, 1}, {{1, 0, 0}, 1}})) == Approx(0.7937005260).epsilon(1e-10));
-    CHECK(sphericity(shapes::apollonian_14(0.02)) == Approx(0.447).epsilon(1e-3));
+    CHECK(sphericity(shapes::apollonian_14(circumscribed(0.02))) == Approx(0.447).epsilon(1e-3));
 }
 
 TEST_CASE("overlapping pebbles are refused with the pair, the overlap and the factor that cures it") {
@@ -181,7 +183,7 @@ TEST_CASE("pebbles are bonded up to a gap of a thousandth of the smallest radius
 }
 
 TEST_CASE("a part of a shape: its pebbles, in their places, with their bonds and its own mass properties") {
-    const shape whole = shapes::apollonian_14(0.02);
+    const shape whole = shapes::apollonian_14(circumscribed(0.02));
     const shape part = part_of(whole, 2, 6);
     REQUIRE(part.pebbles.size() == 6);
     double volume = 0.0;
@@ -208,7 +210,7 @@ TEST_CASE("a part of a shape: its pebbles, in their places, with their bonds and
 }
 
 TEST_CASE("a part that bonds do not hold together has none, and a part of one pebble is a sphere") {
-    const shape whole = shapes::apollonian_14(0.02);
+    const shape whole = shapes::apollonian_14(circumscribed(0.02));
     CHECK(part_of(whole, 0, 2).bonds.empty()); // opposite pebbles
     CHECK(part_of(whole, 6, 8).bonds.empty()); // the small ones, which do not touch each other
     CHECK(part_of(whole, 5, 3).bonds.empty()); // a big one that touches one of two small ones
@@ -217,4 +219,27 @@ TEST_CASE("a part that bonds do not hold together has none, and a part of one pe
     CHECK(one.circumscribed_radius == whole.pebbles[13].radius);
     CHECK((one.inertia_per_density.x == one.inertia_per_density.y && one.inertia_per_density.y > 0.0));
     CHECK(norm(one.mass_centre - whole.pebbles[13].offset) < 1e-18);
+}
+
+TEST_CASE("a grain of 2 cm is as large as a ball of 2 cm, or fits into one, by its reading") {
+    const double ball = std::numbers::pi / 6.0 * 0.02 * 0.02 * 0.02;
+    const shape four = shapes::tetrahedron_4(0.02), fourteen = shapes::apollonian_14(0.02);
+    CHECK(four.pebbles[0].radius == Approx(0.01 / std::cbrt(4.0)).epsilon(1e-14));
+    CHECK(2.0 * four.circumscribed_radius == Approx(0.0280).epsilon(2e-3));
+    CHECK(2.0 * fourteen.circumscribed_radius == Approx(0.0248).epsilon(2e-3));
+    for (const shape& s : {four, fourteen}) {
+        CHECK(s.volume == Approx(ball).epsilon(1e-14));
+        CHECK((s.diameter == 0.02 && s.reading == size_reading::equivalent));
+        CHECK(part_of(s, 0, 2).diameter == Approx(std::cbrt(2.0) * 2.0 * s.pebbles[0].radius).epsilon(1e-14));
+        // one reading into the other and back
+        const shape around = scaled_to(s, circumscribed(0.02)), back = scaled_to(around, equivalent(0.02));
+        CHECK((around.circumscribed_radius == 0.01 && around.diameter == 0.02));
+        CHECK(around.volume < 0.6 * ball);
+        CHECK(part_of(around, 0, 1).diameter == Approx(2.0 * around.pebbles[0].radius).epsilon(1e-15));
+        CHECK(back.circumscribed_radius == Approx(s.circumscribed_radius).epsilon(1e-14));
+        CHECK(scaled_by(s, 0.5).diameter == 0.01);
+        CHECK(scaled_by(s, 0.5).volume == Approx(ball / 8.0).epsilon(1e-14));
+    }
+    const shape one = shapes::sphere(0.02), same = shapes::sphere(circumscribed(0.02));
+    CHECK((one.diameter == same.diameter && one.pebbles[0].radius == same.pebbles[0].radius));
 }

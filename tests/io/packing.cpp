@@ -30,7 +30,8 @@ const char* const title = "x_m,y_m,z_m,d_m,shape,qw,qx,qy,qz\n";
 
 TEST_CASE("a packing that was written is read back to the last bit: places, sizes, shapes and orientations") {
     bodies::clumps s;
-    const mixture of({{shapes::tetrahedron_4(0.02), 1.0}, {shapes::apollonian_14(0.03), 1.0}});
+    const mixture of(
+        {{shapes::tetrahedron_4(circumscribed(0.02)), 1.0}, {shapes::apollonian_14(circumscribed(0.03)), 1.0}});
     for (const mixture_part& p : of.parts()) s.kind_of(p.form);
     random_stream random{4, 1};
     for (int g = 0; g < 20; ++g) s.add(g % 2, direction(random), orientation(random), g < 2 ? 1.0 : 0.5 + 0.01 * g);
@@ -62,7 +63,7 @@ TEST_CASE("spheres may come as four numbers each") {
 }
 
 TEST_CASE("a packing that cannot be read is refused with what and where") {
-    const mixture balls = shapes::sphere(0.02), clumps = shapes::tetrahedron_4(0.02);
+    const mixture balls = shapes::sphere(0.02), clumps = shapes::tetrahedron_4(circumscribed(0.02));
     const auto names = [](const std::string& text, const char* what) {
         INFO(text);
         CHECK(text.find(what) != std::string::npos);

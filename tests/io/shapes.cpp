@@ -31,8 +31,9 @@ TEST_CASE("a shape file gives the same shape as its pebbles") {
     CHECK(s.pebbles.size() == 2);
     CHECK(s.bonds.size() == 1);
     CHECK(contains(file.path, s.name));
-    CHECK(s.diameter == Approx(4.0).epsilon(1e-15));
-    const shape scaled = shapes::by_name(file.path, 0.02);
+    CHECK(s.diameter == Approx(2.0 * std::cbrt(2.0)).epsilon(1e-15)); // of two balls of 1 m
+    CHECK(s.circumscribed_radius == Approx(2.0).epsilon(1e-15));
+    const shape scaled = shapes::by_name(file.path, circumscribed(0.02));
     CHECK(scaled.diameter == 0.02);
     CHECK(scaled.pebbles[0].radius == Approx(0.005).epsilon(1e-15));
 }
@@ -51,12 +52,12 @@ TEST_CASE("a wrong shape file is refused with its line and what is wrong") {
 }
 
 TEST_CASE("a shape is chosen by name, and an unknown name is refused with the choices") {
-    CHECK(shapes::by_name("14B", 0.02).pebbles.size() == 14);
-    CHECK(shapes::by_name("4B", 0.02).pebbles.size() == 4);
-    CHECK(shapes::by_name("sphere", 0.02).pebbles.size() == 1);
-    CHECK_THROWS_AS(shapes::by_name("15B", 0.02), input_error);
+    CHECK(shapes::by_name("14B", circumscribed(0.02)).pebbles.size() == 14);
+    CHECK(shapes::by_name("4B", circumscribed(0.02)).pebbles.size() == 4);
+    CHECK(shapes::by_name("sphere", circumscribed(0.02)).pebbles.size() == 1);
+    CHECK_THROWS_AS(shapes::by_name("15B", circumscribed(0.02)), input_error);
     try {
-        shapes::by_name("15B", 0.02);
+        shapes::by_name("15B", circumscribed(0.02));
     } catch (const input_error& error) {
         CHECK(contains(error.what(), "14B, 4B, sphere"));
     }
@@ -64,6 +65,6 @@ TEST_CASE("a shape is chosen by name, and an unknown name is refused with the ch
 
 TEST_CASE("what to make of pebbles of a file that overlap is said when it is read") {
     const text_file file("0 0 0 1\n1 0 0 1\n");
-    CHECK(shapes::by_name(file.path, 0.02, overlaps::as_union).overlapping);
-    CHECK_THROWS_AS(shapes::by_name(file.path, 0.02), input_error);
+    CHECK(shapes::by_name(file.path, circumscribed(0.02), overlaps::as_union).overlapping);
+    CHECK_THROWS_AS(shapes::by_name(file.path, circumscribed(0.02)), input_error);
 }

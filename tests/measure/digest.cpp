@@ -24,7 +24,7 @@ engine<scenes::breakable<boundaries::tiles>> broken(int threads) {
     auto s = scenes::settings<P>(3e5, 0.05);
     s.run = execution(threads);
     s.contacts_per_thread = 8; // cut even this scene into ranges
-    auto e = scenes::packed<P>(s, shapes::tetrahedron_4(0.02), 60, 0.052, 2e5, 1500);
+    auto e = scenes::packed<P>(s, shapes::tetrahedron_4(circumscribed(0.02)), 60, 0.052, 2e5, 1500);
     e.breakage_on = true;
     e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.2};
     e.step(1500);
@@ -43,7 +43,7 @@ template <class Body> struct in_cell : triaxial_policies_default {
 template <class Body> engine<in_cell<Body>> cell(int threads) {
     constexpr int n = 5;
     Body s;
-    if constexpr (Body::turns) s.shapes.push_back(shapes::tetrahedron_4(0.02));
+    if constexpr (Body::turns) s.shapes.push_back(shapes::tetrahedron_4(circumscribed(0.02)));
     for (int k = 0; k < n * n * n; ++k) {
         const auto at = [](int i) { return 0.0202 * (i - 0.5 * (n - 1)); };
         const vec3 x{at(k % n), at(k / n % n), at(k / n / n)};
@@ -164,7 +164,7 @@ TEST_CASE("a law without a history has a digest") {
         using contact = frictionless;
     };
     const auto run = [](std::int64_t steps) {
-        bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+        bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
         sp.add(0, {}, {});
         sp.add(0, {0, 0, 0.0195}, {});
         engine<policies> e(

@@ -161,7 +161,8 @@ TEST_CASE("a body that no other balances shows in the unbalanced ratio") {
 }
 
 TEST_CASE("in a packing at rest under one stress all round, contacts and walls agree") {
-    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(0.02), 50, 0.07, 2e5, 9000);
+    auto e = scenes::packed<rigid>(scenes::settings<rigid>(), shapes::tetrahedron_4(circumscribed(0.02)), 50, 0.07, 2e5,
+                                   9000);
     e.drives = scenes::isotropic(2e5, 0.02);
     for (int k = 0; k < 3000; ++k) e.step();
     const mat3 s = measure::love_weber(e, e.boundary.volume());
@@ -174,7 +175,7 @@ TEST_CASE("in a packing at rest under one stress all round, contacts and walls a
 
 TEST_CASE("bonds of a cluster carry the stress that its clump did") {
     using brittle = scenes::breakable<>;
-    const shape grain = shapes::tetrahedron_4(0.02);
+    const shape grain = shapes::tetrahedron_4(circumscribed(0.02));
     bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
     const boundaries::cylinder_settings c = scenes::cylinder_around(sp, 2e-5);

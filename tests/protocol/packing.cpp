@@ -17,7 +17,7 @@ using namespace clast;
 namespace {
 bodies::clumps cloud(std::size_t count, const protocol::cylinder& room, std::uint64_t seed) {
     bodies::clumps s;
-    s.shapes = {shapes::tetrahedron_4(0.02)};
+    s.shapes = {shapes::tetrahedron_4(circumscribed(0.02))};
     protocol::add_cloud(s, 0, count, room, seed);
     return s;
 }
@@ -79,7 +79,7 @@ TEST_CASE("a cloud keeps off what is there already, whatever its size, and is th
     bodies::clumps s = cloud(30, room, 3);
     protocol::add_cloud(s, 0, 30, room, 3);
     REQUIRE(s.grain_count() == 60);
-    protocol::add_cloud(s, shapes::apollonian_14(0.01), 60, room, 3);
+    protocol::add_cloud(s, shapes::apollonian_14(circumscribed(0.01)), 60, room, 3);
     REQUIRE(s.grain_count() == 120);
     REQUIRE(s.shapes.size() == 2);
     for (std::size_t g = 0; g < 120; ++g)
@@ -104,7 +104,7 @@ TEST_CASE("a cloud of spheres stands where that of clumps of their size stands, 
     CHECK(s.pebbles[7].radius == 0.01);
     std::string text;
     try {
-        protocol::add_cloud(s, shapes::tetrahedron_4(0.02), 1, room, 5);
+        protocol::add_cloud(s, shapes::tetrahedron_4(circumscribed(0.02)), 1, room, 5);
     } catch (const input_error& e) {
         text = e.what();
     }
@@ -130,8 +130,9 @@ TEST_CASE("a cloud in a box fills its corners") {
 }
 
 TEST_CASE("a cloud of several shapes and sizes: all of them, none in another's sphere, the largest not left over") {
-    const mixture of({{shapes::apollonian_14(0.02), 0.5}, {shapes::tetrahedron_4(0.02), 0.5}},
-                     grading({{0.006, 0.0}, {0.02, 0.5}, {0.03, 1.0}}));
+    const mixture of(
+        {{shapes::apollonian_14(circumscribed(0.02)), 0.5}, {shapes::tetrahedron_4(circumscribed(0.02)), 0.5}},
+        grading({{0.006, 0.0}, {0.02, 0.5}, {0.03, 1.0}}));
     const protocol::cylinder room{0.08, 0.0, 0.2};
     const std::vector<mixture_grain> grains = of.grains_of(0.1 * 3.14159 * 0.08 * 0.08 * 0.2);
     bodies::clumps s;
@@ -153,7 +154,7 @@ TEST_CASE("a cloud of several shapes and sizes: all of them, none in another's s
 }
 
 TEST_CASE("a packing of one's own is looked at: inside, orientations, sizes, overlaps") {
-    const mixture of = shapes::tetrahedron_4(0.02);
+    const mixture of = shapes::tetrahedron_4(circumscribed(0.02));
     const std::vector<placed_grain> good = {{{0, 1.0}, {0.0, 0.0, 0.011}, {}}, {{0, 1.2}, {0.0, 0.0, 0.04}, {}}};
     const auto refusal = [&](auto&& change) -> std::string {
         std::vector<placed_grain> grains = good;
@@ -193,13 +194,13 @@ TEST_CASE("a packing of one's own is looked at: inside, orientations, sizes, ove
 }
 
 TEST_CASE("the sizes of a packing are those of its grains") {
-    const mixture m({{shapes::apollonian_14(0.02), 1.0}, {shapes::sphere(0.02), 1.0}});
+    const mixture m({{shapes::apollonian_14(circumscribed(0.02)), 1.0}, {shapes::sphere(0.02), 1.0}});
     // spheres of 1, 2 and 3: the largest has 27 of 36 parts of the mass
     const std::vector<placed_grain> grains = {
         {{1, 1.5}, {0.1, 0, 0}, {}}, {{1, 0.5}, {}, {}}, {{1, 1.0}, {-0.1, 0, 0}, {}}};
     const grain_sizes given = protocol::packing(m, grains).sizes();
     CHECK(given.d50 == Approx(0.03));
-    CHECK(given.largest_diameter == Approx(0.03));
+    CHECK(given.largest_circumscribed == Approx(0.03));
     CHECK(given.smallest_radius == Approx(0.005));
     CHECK(given.largest_radius == Approx(0.015));
     CHECK(protocol::packing().empty());

@@ -113,7 +113,8 @@ struct listener : recorder {
 } // namespace
 
 TEST_CASE("no stage of the preparation loads grains beyond 1 % of the stress to come, whatever their shape") {
-    for (const shape& grain : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)}) {
+    for (const shape& grain :
+         {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))}) {
         INFO(grain.name);
         listener watch;
         const std::vector<stage_record> all = prepare(grain, 0.62, watch);
@@ -134,7 +135,8 @@ TEST_CASE("no stage of the preparation loads grains beyond 1 % of the stress to 
 
 TEST_CASE("a specimen that jams short of its size tries the same frictions in turn, and says that it is out of reach") {
     listener watch;
-    const std::vector<stage_record> all = prepare(shapes::apollonian_14(0.02), 0.45, watch); // denser than can be
+    const std::vector<stage_record> all =
+        prepare(shapes::apollonian_14(circumscribed(0.02)), 0.45, watch); // denser than can be
     CHECK_FALSE(all[0].reached);
     CHECK(all[0].friction == 0.0);
     CHECK(all[0].largest_p > 0.005 * 2e6); // walls have pressed

@@ -235,7 +235,7 @@ TEST_CASE("the energy of a test under gravity closes in the column of its residu
     struct heavy : rigid {
         using field = fields::gravity;
     };
-    triaxial_test<heavy> test({.grain = shapes::tetrahedron_4(0.02),
+    triaxial_test<heavy> test({.grain = shapes::tetrahedron_4(circumscribed(0.02)),
                                .diameter = 66_mm,
                                .height = 75_mm,
                                .confining = 200_kPa,

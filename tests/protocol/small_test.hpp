@@ -23,7 +23,7 @@ using rigid = scenes::unbreakable<boundaries::solid_strips>;
 using test_type = triaxial_test<rigid>;
 
 inline triaxial_setup<rigid> setup() {
-    return {.grain = shapes::tetrahedron_4(0.02),
+    return {.grain = shapes::tetrahedron_4(circumscribed(0.02)),
             .diameter = 66_mm,
             .height = 75_mm,
             .confining = 200_kPa,

@@ -27,7 +27,7 @@ using rigid = scenes::unbreakable<boundaries::tiles>;
 using setup_type = triaxial_setup<rigid>;
 
 template <class P = rigid> triaxial_setup<P> good() {
-    return {.grain = shapes::tetrahedron_4(0.02),
+    return {.grain = shapes::tetrahedron_4(circumscribed(0.02)),
             .diameter = 66_mm,
             .height = 75_mm,
             .confining = 200_kPa,
@@ -88,9 +88,9 @@ TEST_CASE("a specimen starts as a cloud in a larger vessel, with the number of g
     CHECK(test.sim().kinetic_energy() == 0.0); // the stage that compacts sends it off
     CHECK(test.sim().elastic_energy() == 0.0);
     // stiffness in series, the smaller friction
-    CHECK(test.sim().settings.grain_contact.kn == Approx(2.9e6));
+    CHECK(test.sim().settings.grain_contact.kn == Approx(5.8e6));
     CHECK(test.sim().settings.grain_contact.mu == 0.3);
-    CHECK(test.sim().settings.lateral_contact.kn == Approx(5.8e6 * 3.2e6 / 9.0e6));
+    CHECK(test.sim().settings.lateral_contact.kn == Approx(11.6e6 * 3.2e6 / 14.8e6));
     CHECK(test.sim().settings.lateral_contact.mu == 0.0);
 }
 
@@ -216,8 +216,9 @@ TEST_CASE("the paper's preparation at toy size ends relaxed, or seated at a smal
 
 TEST_CASE("a graded mixture of shapes fills the specimen to its porosity, and walls and speeds suit its sizes") {
     triaxial_setup<rigid> s = good();
-    s.grain = mixture({{shapes::apollonian_14(1.0), 0.5}, {shapes::tetrahedron_4(1.0), 0.5}},
-                      grading({{8e-3, 0.0}, {1.6e-2, 0.6}, {2.4e-2, 1.0}}));
+    s.grain =
+        mixture({{shapes::apollonian_14(circumscribed(1.0)), 0.5}, {shapes::tetrahedron_4(circumscribed(1.0)), 0.5}},
+                grading({{8e-3, 0.0}, {1.6e-2, 0.6}, {2.4e-2, 1.0}}));
     const triaxial_test<rigid> test(s, protocol::preparation());
     const bodies::clumps& grains = test.sim().grains;
     const double volume = 8.0 * std::tan(std::numbers::pi / 8.0) * 0.033 * 0.033 * 0.075;
@@ -276,7 +277,7 @@ TEST_CASE("slender and flat grains pack as others do: their cloud takes the room
     for (const auto& [name, pebbles] : {std::pair("row", row), std::pair("disc", disc)}) {
         INFO(name);
         setup_type s = good();
-        s.grain = scaled_to(make_shape(name, pebbles), 0.024);
+        s.grain = scaled_to(make_shape(name, pebbles), circumscribed(0.024));
         s.porosity = 0.58;
         s.confining = 2_MPa;
         triaxial_test<rigid> test(s, protocol::preparation());

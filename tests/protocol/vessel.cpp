@@ -144,7 +144,7 @@ TEST_CASE("a triaxial test needs a vessel, an engine needs none") {
 }
 
 TEST_CASE("clumps in a box go through a triaxial test") {
-    check(sheared<whole<boundaries::box, bodies::clumps>>(shapes::tetrahedron_4(0.02), 0.6), 0.6);
+    check(sheared<whole<boundaries::box, bodies::clumps>>(shapes::tetrahedron_4(circumscribed(0.02)), 0.6), 0.6);
 }
 
 TEST_CASE("spheres between tiles and in a box go through a triaxial test") {

@@ -17,7 +17,7 @@ using replacements::modified;
 namespace {
 
 struct loaded {
-    bonds::lattice lattice{shapes::apollonian_14(0.02), bonds::parallel{}, 2650.0};
+    bonds::lattice lattice{shapes::apollonian_14(circumscribed(0.02)), bonds::parallel{}, 2650.0};
     std::vector<bonds::pebble_load> load;
     quaternion q;
     vec3 w;

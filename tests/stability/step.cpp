@@ -19,7 +19,7 @@ using rigid = scenes::unbreakable<>;
 double growth(double safety, double damping, int steps) {
     auto s = scenes::settings<rigid>();
     s.grain_contact.mu = 0.0;
-    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(0.02), 40, 0.065, 5e5, 8000);
+    auto e = scenes::packed<rigid>(s, shapes::tetrahedron_4(circumscribed(0.02)), 40, 0.065, 5e5, 8000);
     e.drives = {};
     for (int k = 0; k < 2000; ++k) e.step();
     e.settings.scheme.damping = damping;

@@ -30,6 +30,8 @@ TEST_CASE("one shape by name: no file, no grading, grains of 2 cm") {
     const clast::mixture grains = grains_of(o);
     REQUIRE(grains.parts().size() == 1);
     CHECK(grains.d50() == Approx(0.02));
+    CHECK(grains.largest_circumscribed() == Approx(0.0280).epsilon(2e-3)); // equal in volume to a ball of 2 cm
+    CHECK(grains_of(read({"--grain-size", "circumscribed"})).largest_circumscribed() == Approx(0.02));
     CHECK(grains.sizes().empty());
     CHECK(packing_of(o, grains).empty());
 }

@@ -29,10 +29,14 @@ TEST_CASE("without options the program runs the small weak 4B specimen in tiles"
     REQUIRE(o.membrane == "tiles");
     REQUIRE(o.confining == 2e6);
     REQUIRE(o.strain == 0.25);
-    REQUIRE(o.diameter() == Approx(0.12).epsilon(1e-14));
-    REQUIRE(o.height() == Approx(0.28).epsilon(1e-14));
-    REQUIRE(o.rings == 14);
-    REQUIRE(o.tiles_per_ring == 10);
+    REQUIRE(o.grain_size == "equivalent");
+    REQUIRE(o.stiffness == "contact");
+    REQUIRE(o.contact_force == "resultant");
+    REQUIRE(o.weibull == 10.0);
+    REQUIRE(o.diameter() == Approx(0.18).epsilon(1e-14));
+    REQUIRE(o.height() == Approx(0.42).epsilon(1e-14));
+    REQUIRE(o.rings == 22);
+    REQUIRE(o.tiles_per_ring == 12);
     REQUIRE(o.bond_stiffness == 9.6e8);
     REQUIRE(o.bond_stiffness_reading == bond_reading::force);
     REQUIRE(o.breakable());
@@ -51,13 +55,15 @@ TEST_CASE("at full scale the membrane is that of the paper, at half scale that o
 }
 
 TEST_CASE("default tiles are never narrower than a grain") {
-    for (double s = 0.17; s <= 2.0; s += 0.01) {
+    const double widest = 2.0 * clast::shapes::tetrahedron_4(grain_diameter).circumscribed_radius;
+    for (double s = 0.23; s <= 2.0; s += 0.01) {
         const options o = read({"--scale", fmt::format("{:.2f}", s)});
-        REQUIRE(tile_width(o.diameter(), o.tiles_per_ring) >= grain_diameter);
+        REQUIRE(tile_width(o.diameter(), o.tiles_per_ring) >= widest);
         REQUIRE(o.tiles_per_ring >= 8);
     }
-    REQUIRE(has(refusal({"--scale", "0.16"}), "0.17 to 2"));
-    REQUIRE(read({"--scale", "0.16", "--tiles-per-ring", "6"}).tiles_per_ring == 6); // the user knows better
+    REQUIRE(has(refusal({"--scale", "0.22"}), "0.23 to 2"));
+    REQUIRE(has(refusal({"--scale", "0.16", "--grain-size", "circumscribed"}), "0.17 to 2"));
+    REQUIRE(read({"--scale", "0.22", "--tiles-per-ring", "6"}).tiles_per_ring == 6); // the user knows better
 }
 
 TEST_CASE("quantities are read in their units") {
@@ -90,10 +96,10 @@ TEST_CASE("the bond stiffness is a reading of Table 1 or a value whose unit tell
 }
 
 TEST_CASE("tiles and rings below the size of a pebble are refused with the largest number that fits") {
-    REQUIRE(has(refusal({"--tiles-per-ring", "43"}), "6 to 42"));
-    REQUIRE(refusal({"--tiles-per-ring", "42"}) == "accepted");
-    REQUIRE(has(refusal({"--rings", "32"}), "1 to 31"));
-    REQUIRE(refusal({"--rings", "31"}) == "accepted");
+    REQUIRE(has(refusal({"--tiles-per-ring", "45"}), "6 to 44"));
+    REQUIRE(refusal({"--tiles-per-ring", "44"}) == "accepted");
+    REQUIRE(has(refusal({"--rings", "34"}), "1 to 33"));
+    REQUIRE(refusal({"--rings", "33"}) == "accepted");
 }
 
 TEST_CASE("the stored arguments give the same options again") {
@@ -137,13 +143,18 @@ TEST_CASE("every option that decides results changes the fingerprint, and no oth
                                                {"--strength", "medium"},
                                                {"--membrane", "solid"},
                                                {"--rings", "12"},
-                                               {"--tiles-per-ring", "12"},
+                                               {"--tiles-per-ring", "11"},
                                                {"--confining", "1MPa"},
                                                {"--scale", "0.3"},
                                                {"--strain", "24%"},
                                                {"--protocol", "unload"},
                                                {"--inertial-number", "2e-4"},
                                                {"--friction", "0.4"},
+                                               {"--grain-size", "circumscribed"},
+                                               {"--stiffness", "series"},
+                                               {"--contact-force", "single"},
+                                               {"--weibull", "none"},
+                                               {"--strength", "30MPa"},
                                                {"--damping", "0.5"},
                                                {"--seed", "2"},
                                                {"--criterion", "octahedral"},
@@ -166,8 +177,23 @@ TEST_CASE("the table of the paper names every decision once it matters") {
     for (const char* value : {"23.2 / 43.2 / 350.7", "0.3e8 / 0.5e8 / 4.2e8", "0.6e8 / 1.0e8 / 8.4e8", "46.8 GPa",
                               "5.8e6", "9.6e8, 4.8e8", "3.2e8", "3.2e6", "58 %"})
         REQUIRE(has(text, value));
+    for (const char* option : {"--grain-size", "--strength", "--contact-force", "--stiffness", "--weibull"})
+        REQUIRE(has(text, option));
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
         REQUIRE(end - at <= 112);
+}
+
+TEST_CASE("a strength is a rock of Table 1 or a stress, whose bonds are in the proportion of the weak one") {
+    const options o = read({"--strength", "46.4MPa"});
+    REQUIRE(o.rock().characteristic == Approx(46.4e6).epsilon(1e-14));
+    REQUIRE(o.rock().bond_tension == Approx(0.6e8).epsilon(1e-14));
+    REQUIRE(o.rock().bond_cohesion == Approx(1.2e8).epsilon(1e-14));
+    REQUIRE(o.out == "results/4B-tiles-46.4MPa-2MPa");
+    REQUIRE(read(to_arguments(o)).rock().characteristic == o.rock().characteristic);
+    REQUIRE(read({"--strength", "strong"}).rock().bond_cohesion == 8.4e8);
+    REQUIRE(has(refusal({"--strength", "week"}), "weak, medium, strong"));
+    REQUIRE(has(refusal({"--strength", "23"}), "MPa"));
+    REQUIRE(has(refusal({"--strength", "0MPa"}), "1kPa to 1TPa"));
 }
 
 TEST_CASE("porosity is a target between loose and dense, part of what decides the results") {
@@ -186,13 +212,15 @@ TEST_CASE("a specimen of another run brings its grains, size, porosity and seed,
     REQUIRE(has(refusal({"--from", place.string()}), arguments_file));
     {
         std::ofstream file(place / arguments_file);
-        for (const std::string& a : to_arguments(read({"--shape", "14B", "--scale", "0.3", "--porosity", "0.6",
-                                                       "--seed", "7", "--protocol", "prepare", "--friction", "0.2"})))
+        for (const std::string& a :
+             to_arguments(read({"--shape", "14B", "--scale", "0.3", "--porosity", "0.6", "--seed", "7", "--protocol",
+                                "prepare", "--friction", "0.2", "--grain-size", "circumscribed"})))
             file << a << '\n';
     }
     const options o = read({"--from", place.string(), "--membrane", "solid", "--confining", "1MPa"});
     REQUIRE(o.shape == "14B");
     REQUIRE(o.scale == 0.3);
+    REQUIRE(o.grain_size == "circumscribed");
     REQUIRE(o.porosity == 0.6);
     REQUIRE(o.seed == 7);
     REQUIRE(o.protocol == "triaxial"); // what is done with it is not taken over

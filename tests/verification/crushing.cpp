@@ -27,7 +27,7 @@ struct crushed {
 
 /// Crushes a 4B grain with the given orientation: replaced at about half the load of the first break.
 crushed crush(const quaternion& q, double strength, double trigger_force, double safety, double distance) {
-    const shape grain = shapes::tetrahedron_4(0.02);
+    const shape grain = shapes::tetrahedron_4(circumscribed(0.02));
     bodies::clumps sp = scenes::empty(grain);
     sp.add(0, {}, q);
     const boundaries::cylinder_settings c = scenes::cylinder_around(sp);
@@ -55,7 +55,7 @@ double by_statics(const quaternion& q, double strength) {
     bonds::parallel material;
     material.tensile_strength *= strength;
     material.cohesion *= strength;
-    const shape grain = shapes::tetrahedron_4(0.02);
+    const shape grain = shapes::tetrahedron_4(circumscribed(0.02));
     const bonds::lattice lattice(grain, material, 2650.0);
     std::vector<double> z;
     for (const shape_pebble& p : grain.pebbles) z.push_back(rotate(q, p.offset).z);

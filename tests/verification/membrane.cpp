@@ -34,7 +34,7 @@ struct seen {
 /// A small specimen sheared to 6 %.
 template <class B> seen sheared() {
     using test_type = triaxial_test<whole<B>>;
-    test_type test({.grain = shapes::apollonian_14(0.02),
+    test_type test({.grain = shapes::apollonian_14(circumscribed(0.02)),
                     .diameter = 75_mm,
                     .height = 150_mm,
                     .confining = 2_MPa,

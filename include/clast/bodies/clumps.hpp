@@ -85,9 +85,7 @@ struct clumps {
     double mass_of(const grain& g) const {
         return of_shape[static_cast<std::size_t>(g.shape)].mass * (g.scale * g.scale * g.scale * g.density_ratio);
     }
-    double diameter_of(const grain& g) const {
-        return shape_of(g).diameter * g.scale;
-    } ///< of its circumscribed sphere (m)
+    double diameter_of(const grain& g) const { return shape_of(g).diameter * g.scale; } ///< nominal: grain_size (m)
     /// Of all its pebbles (m^3).
     double volume_of(const grain& g) const { return shape_of(g).volume * (g.scale * g.scale * g.scale); }
     double ball_mass(std::size_t p) const { return ball_density(p) * sphere_volume(pebbles[p].radius); }

@@ -15,7 +15,7 @@ namespace clast::criteria {
 /// asked.
 enum class needs : unsigned {
     nothing = 0,
-    largest_force = 1,    ///< grain_load::largest_force
+    largest_force = 1,    ///< grain_load::largest_force and largest_single
     largest_contact = 2,  ///< contact_radius and contact_at_wall of the contact behind largest_force
     stress = 4,           ///< grain_load::stress
     grain_id = 8,         ///< grain_load::grain
@@ -35,14 +35,20 @@ constexpr bool contains(needs given, needs asked) {
 inline constexpr needs everything = needs::largest_force | needs::largest_contact | needs::stress | needs::grain_id |
                                     needs::coordination | needs::neighbour_forces;
 
+/// Which force of a neighbour a criterion compares with its limit.
+enum class force_of : std::uint8_t {
+    neighbour, ///< resultant of all contacts with it: the crushing test measures the platen's force, which is one, too
+    contact    ///< largest single contact of two pebbles, or of a pebble with a wall
+};
+
 /// What a criterion may know about one clump, filled by the engine. Members that it did not ask for are left at zero.
 struct grain_load {
-    double diameter = 0.0; ///< of the circumscribed sphere, d (m), positive
+    double diameter = 0.0; ///< nominal, d (m), positive: grain_size
     double volume = 0.0;   ///< of the pebbles (m^3), positive
     /// Largest force by one neighbour (N), a clump, a fragment (balls that bonds join), a platen or the lateral wall:
-    /// the resultant of its contacts, because the crushing test measures the platen's force, which is a resultant too;
-    /// or the largest single contact, if the engine is told so.
+    /// the resultant of its contacts.
     double largest_force = 0.0;
+    double largest_single = 0.0; ///< largest force of a single contact (N)
     /// Mean stress (Pa, compression positive): -(1/V) sum f (x) l, f the force on the grain at the arm l from its mass
     /// centre, V the pebble volume. Symmetric only if the moments balance: criteria use the symmetric part.
     mat3 stress;
@@ -59,6 +65,11 @@ struct grain_load {
     /// `utilisation`.
     std::span<const vec3> neighbour_forces;
 };
+
+/// The force that counts (N).
+inline double force(const grain_load& load, force_of what) {
+    return what == force_of::contact ? load.largest_single : load.largest_force;
+}
 
 namespace detail {
 // a member of the name that cannot be called like this would be passed over in silence

@@ -33,12 +33,13 @@ struct hertz_contact {
     double youngs_modulus;            ///< E of the grain (Pa), positive
     double poisson_ratio;             ///< nu, in (-1, 0.5]
     hertz_rule rule;
+    force_of which = force_of::neighbour;
 
     /// Eq. 1 as printed: the limit pressure is the characteristic strength itself. Throws input_error if E or nu is out
     /// of range.
     static hertz_contact literal(const crushing_strength& strength, double youngs_modulus = 46.8e9,
                                  double poisson_ratio = 0.3, hertz_rule rule = hertz_rule::average) {
-        hertz_contact c{strength, youngs_modulus, poisson_ratio, rule};
+        hertz_contact c{strength, youngs_modulus, poisson_ratio, rule, force_of::neighbour};
         c.check();
         return c;
     }
@@ -50,7 +51,7 @@ struct hertz_contact {
     static hertz_contact calibrated(const crushing_strength& strength, double youngs_modulus = 46.8e9,
                                     double poisson_ratio = 0.3, hertz_rule rule = hertz_rule::pair,
                                     double reference_radius = 0.0) {
-        hertz_contact c{strength, youngs_modulus, poisson_ratio, rule};
+        hertz_contact c{strength, youngs_modulus, poisson_ratio, rule, force_of::neighbour};
         c.check();
         grain_load reference;
         reference.diameter = strength.d0;
@@ -66,7 +67,7 @@ struct hertz_contact {
         const double root = limit_pressure.at(load.diameter, load.strength_factor) * force_root_per_pressure(load);
         return root * root * root;
     }
-    double utilisation(const grain_load& load) const { return load.largest_force / limit(load); }
+    double utilisation(const grain_load& load) const { return force(load, which) / limit(load); }
 
     /// Only the rule `contact` asks for the contact.
     constexpr criteria::needs active_needs() const {

@@ -15,12 +15,13 @@ struct nominal_force {
     static constexpr criteria::needs needs = criteria::needs::largest_force;
 
     crushing_strength strength;
+    force_of which = force_of::neighbour;
 
     /// Force at which the grain breaks (N).
     double limit(const grain_load& load) const {
         return strength.at(load.diameter, load.strength_factor) * load.diameter * load.diameter;
     }
-    double utilisation(const grain_load& load) const { return load.largest_force / limit(load); }
+    double utilisation(const grain_load& load) const { return force(load, which) / limit(load); }
 };
 
 } // namespace clast::criteria

@@ -46,11 +46,15 @@ template <evaluated_criterion... C> struct one_of {
 using any = one_of<nominal_force, hertz_contact, octahedral, mean_stress, major_principal>;
 
 /// Criterion by name: nominal_force, hertz_contact (calibrated), hertz_literal (Eq. 1 as printed), octahedral,
-/// mean_stress or major_principal. Throws input_error for another name.
-inline any by_name(const std::string& name, const crushing_strength& strength) {
-    if (name == "nominal_force") return nominal_force{strength};
-    if (name == "hertz_contact") return hertz_contact::calibrated(strength);
-    if (name == "hertz_literal") return hertz_contact::literal(strength);
+/// mean_stress or major_principal; which: for those that read a force. Throws input_error for another name.
+inline any by_name(const std::string& name, const crushing_strength& strength, force_of which = force_of::neighbour) {
+    const auto of_force = [which](hertz_contact c) {
+        c.which = which;
+        return c;
+    };
+    if (name == "nominal_force") return nominal_force{strength, which};
+    if (name == "hertz_contact") return of_force(hertz_contact::calibrated(strength));
+    if (name == "hertz_literal") return of_force(hertz_contact::literal(strength));
     if (name == "octahedral") return octahedral{strength};
     if (name == "mean_stress") return mean_stress{strength};
     if (name == "major_principal") return major_principal{strength};

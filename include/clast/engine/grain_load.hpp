@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -105,6 +106,9 @@ template <class S> criteria::grain_load load_of(const S& s, std::size_t g, std::
         if (wants_stress) load.stress += (-1.0 / load.volume) * outer(f.force, f.point - s.grains.motion[g].x);
     });
     const neighbour_load* most = nullptr;
+    double single = 0.0;
+    for (const neighbour_load& n : around) single = std::max(single, n.largest);
+    load.largest_single = std::sqrt(single);
     for (const neighbour_load& n : around)
         if (const double size = norm(n.force); size > load.largest_force) load.largest_force = size, most = &n;
     if (most != nullptr && wants(needs::largest_contact))

@@ -16,7 +16,7 @@ namespace clast {
 
 /// A point of a sieve curve.
 struct sieve {
-    double size = 0.0;  ///< (m): diameter of the circumscribed sphere of a grain
+    double size = 0.0;  ///< (m): nominal diameter of a grain
     double finer = 0.0; ///< share of the mass in smaller grains, 0 to 1
 };
 

@@ -67,13 +67,13 @@ class mixture {
     const std::vector<mixture_part>& parts() const { return parts_; }
     const grading& sizes() const { return sizes_; }
     const shape& form(const mixture_grain& g) const { return parts_[g.part].form; }
-    double diameter(const mixture_grain& g) const { return g.scale * form(g).diameter; } ///< (m)
+    double diameter(const mixture_grain& g) const { return g.scale * form(g).diameter; } ///< nominal (m)
     /// Of the pebbles of a grain (m^3).
     double volume(const mixture_grain& g) const { return g.scale * g.scale * g.scale * form(g).volume; }
     /// Radius of the circumscribed sphere (m).
     double reach(const mixture_grain& g) const { return g.scale * form(g).circumscribed_radius; }
 
-    /// Sizes of grains (m): the smallest, the largest, and the one that halves the mass.
+    /// Nominal sizes of grains (m): the smallest, the largest, and the one that halves the mass.
     double smallest_diameter() const { return over_diameters(false); }
     double largest_diameter() const { return over_diameters(true); }
     double d50() const {
@@ -83,6 +83,15 @@ class mixture {
             double finer = 0.0;
             for (const mixture_part& o : parts_) finer += o.form.diameter <= p.form.diameter ? o.share : 0.0;
             if (finer >= 0.5) d = std::min(d, p.form.diameter);
+        }
+        return d;
+    }
+    /// Diameter of the largest sphere around a grain (m).
+    double largest_circumscribed() const {
+        double d = 0.0;
+        for (const mixture_part& p : parts_) {
+            const double scale = sizes_.empty() ? 1.0 : sizes_.largest() / p.form.diameter;
+            d = std::max(d, 2.0 * scale * p.form.circumscribed_radius);
         }
         return d;
     }
@@ -143,13 +152,13 @@ class mixture {
 
 /// Sizes that walls and speeds have to suit (m).
 struct grain_sizes {
-    double d50 = 0.0;              ///< halves the mass
-    double largest_diameter = 0.0; ///< of a grain
-    double smallest_radius = 0.0;  ///< of a pebble
-    double largest_radius = 0.0;   ///< of a pebble
+    double d50 = 0.0;                   ///< nominal diameter of a grain that halves the mass
+    double largest_circumscribed = 0.0; ///< diameter of the largest sphere around a grain
+    double smallest_radius = 0.0;       ///< of a pebble
+    double largest_radius = 0.0;        ///< of a pebble
 };
 inline grain_sizes sizes_of(const mixture& m) {
-    return {m.d50(), m.largest_diameter(), m.smallest_radius(), m.largest_radius()};
+    return {m.d50(), m.largest_circumscribed(), m.smallest_radius(), m.largest_radius()};
 }
 
 } // namespace clast

@@ -49,7 +49,7 @@ inline shape overlapping_shape(std::string name, std::vector<shape_pebble> pebbl
         for (std::size_t b = a + 1; b < pebbles.size(); ++b)
             s.overlapping =
                 s.overlapping || norm(pebbles[b].offset - pebbles[a].offset) - pebbles[a].radius - pebbles[b].radius <
-                                     -1e-9 * s.diameter;
+                                     -2e-9 * s.circumscribed_radius;
     if (!s.overlapping || how == overlaps::refuse) return make_shape(std::move(name), std::move(pebbles));
     s.name = std::move(name);
     if (how == overlaps::as_union) {

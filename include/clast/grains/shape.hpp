@@ -21,6 +21,22 @@
 
 namespace clast {
 
+/// What "a grain of 2 cm" means. PFC's diameter of a clump, and so the paper's, is that of the ball of equal volume.
+enum class size_reading : std::uint8_t {
+    equivalent,    ///< diameter of the ball of the volume of the pebbles
+    circumscribed, ///< diameter of the sphere around the mass centre that contains all pebbles
+};
+/// Nominal size of a grain: its d in F/d^2, in the inertial number, in the size effect and in sieve curves. A number
+/// alone is the equivalent diameter; `circumscribed(0.02)` says the other reading.
+struct grain_size {
+    double diameter; ///< (m), positive
+    size_reading reading = size_reading::equivalent;
+
+    constexpr grain_size(double d, size_reading r = size_reading::equivalent) : diameter(d), reading(r) {}
+};
+constexpr grain_size circumscribed(double diameter) { return {diameter, size_reading::circumscribed}; }
+constexpr grain_size equivalent(double diameter) { return {diameter, size_reading::equivalent}; }
+
 /// One sphere of a shape.
 struct shape_pebble {
     vec3 offset;         ///< centre, from the mass centre of the shape, in its principal axes (m)
@@ -41,15 +57,16 @@ struct shape {
     std::vector<shape_bond> bonds;     ///< sorted by (a, b)
     double volume = 0.0;               ///< of the pebbles (m^3)
     double circumscribed_radius = 0.0; ///< smallest sphere around the mass centre that contains all pebbles (m)
-    double diameter = 0.0;             ///< d = 2 * circumscribed_radius (m)
-    vec3 inertia_per_density;          ///< principal moments of inertia over density (m^5); equal ones are bit-equal
-    quaternion to_input_frame;         ///< turns principal axes into the axes in which the pebbles were given
-    vec3 mass_centre;                  ///< mass centre in the frame in which the pebbles were given (m)
-    double phi_nominal = 0.0;          ///< sphericity that the source of the shape states; 0 where there is none
-    bool overlapping = false;          ///< pebbles overlap: for grains that never break
+    double diameter = 0.0;             ///< nominal, d, by the reading (m)
+    size_reading reading = size_reading::equivalent;
+    vec3 inertia_per_density;  ///< principal moments of inertia over density (m^5); equal ones are bit-equal
+    quaternion to_input_frame; ///< turns principal axes into the axes in which the pebbles were given
+    vec3 mass_centre;          ///< mass centre in the frame in which the pebbles were given (m)
+    double phi_nominal = 0.0;  ///< sphericity that the source of the shape states; 0 where there is none
+    bool overlapping = false;  ///< pebbles overlap: for grains that never break
 
     template <class A> void archive(A& a) {
-        a(name, pebbles, bonds, volume, circumscribed_radius, diameter, inertia_per_density, to_input_frame,
+        a(name, pebbles, bonds, volume, circumscribed_radius, diameter, reading, inertia_per_density, to_input_frame,
           mass_centre, phi_nominal, overlapping);
     }
 };
@@ -153,7 +170,17 @@ inline principal_frame principal_axes(const mat3& tensor) {
 inline void check_diameter(double diameter) {
     if (!(diameter > 0.0) || !std::isfinite(diameter))
         throw input_error("grain diameter", fmt::format("{} m", diameter), "positive and finite",
-                          "Give the diameter of the circumscribed sphere, e.g. 0.02 (20 mm).");
+                          "Give it in metres, e.g. 0.02 (20 mm).");
+}
+
+/// Diameter of a shape in a reading (m). A single ball has one.
+inline double diameter_of(const shape& s, size_reading reading) {
+    if (reading == size_reading::circumscribed || s.pebbles.size() == 1) return 2.0 * s.circumscribed_radius;
+    return std::cbrt(6.0 / std::numbers::pi * s.volume);
+}
+inline void read_size(shape& s, size_reading reading) {
+    s.reading = reading;
+    s.diameter = diameter_of(s, reading);
 }
 
 /// Volume (m^3), mass centre and, about that, inertia tensor over density (m^5).
@@ -186,7 +213,7 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles, const solid& w
         if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
         s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
     }
-    s.diameter = 2.0 * s.circumscribed_radius;
+    read_size(s, s.reading);
     const mat3 tensor = inertia_tensor_per_density(pebbles), axes = transpose(matrix(frame.to_input)); // in rows
     vec3& inertia = s.inertia_per_density;
     for (int a = 0; a < 3; ++a) inertia[a] = by_pebbles ? tensor(a, a) : dot(axes.row[a], whole.tensor * axes.row[a]);
@@ -230,10 +257,9 @@ inline shape make_shape(std::string name, std::vector<shape_pebble> pebbles) {
             const double touching = all[a].radius + all[b].radius;
             const double distance = norm(all[b].offset - all[a].offset);
             const double gap = distance - touching;
-            if (gap < -1e-9 * s.diameter)
+            if (const double size = 2.0 * s.circumscribed_radius; gap < -1e-9 * size)
                 throw input_error(
-                    option,
-                    fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / s.diameter),
+                    option, fmt::format("pebbles {} and {} overlap by {:.3g} m ({:.2g} of d)", a, b, -gap, -gap / size),
                     "pebbles that touch or are apart (tolerance 1e-9 of d = 2 R_circumscribed)",
                     fmt::format("Move them apart, or multiply their radii by {:.12g}; grains that never break may have "
                                 "them (overlapping_shape; in the program triaxial: --replacement none).",
@@ -265,20 +291,30 @@ inline shape part_of(const shape& whole, std::size_t first, std::size_t count) {
     std::vector<shape_bond> bonds;
     for (const shape_bond& b : whole.bonds)
         if (from <= b.a && b.b < end) bonds.push_back({b.a - from, b.b - from});
-    return rigid_shape(fmt::format("{} [{}, {})", whole.name, first, first + count),
-                       {begin, begin + static_cast<std::ptrdiff_t>(count)}, std::move(bonds));
+    shape part = rigid_shape(fmt::format("{} [{}, {})", whole.name, first, first + count),
+                             {begin, begin + static_cast<std::ptrdiff_t>(count)}, std::move(bonds));
+    detail::read_size(part, whole.reading);
+    return part;
 }
 
-/// The same shape with another circumscribed diameter d (m). Throws input_error if d is not positive and finite.
-inline shape scaled_to(shape s, double diameter) {
-    detail::check_diameter(diameter);
-    const double f = diameter / s.diameter;
+/// A similar shape of f times the size. Throws input_error if f is not positive and finite.
+inline shape scaled_by(shape s, double f) {
+    detail::check_diameter(f * s.diameter);
     for (shape_pebble& p : s.pebbles) p.offset *= f, p.radius *= f;
     s.volume *= f * f * f;
     s.inertia_per_density *= f * f * f * f * f;
     s.mass_centre *= f;
-    s.circumscribed_radius = 0.5 * diameter;
-    s.diameter = diameter;
+    s.circumscribed_radius *= f;
+    s.diameter *= f;
+    return s;
+}
+/// The same shape with another nominal size. Throws input_error if that is not positive and finite.
+inline shape scaled_to(shape s, grain_size size) {
+    detail::check_diameter(size.diameter);
+    detail::read_size(s, size.reading);
+    s = scaled_by(std::move(s), size.diameter / s.diameter);
+    s.diameter = size.diameter; // to the last digit
+    if (size.reading == size_reading::circumscribed) s.circumscribed_radius = 0.5 * size.diameter;
     return s;
 }
 
@@ -287,32 +323,36 @@ inline shape scaled_to(shape s, double diameter) {
 /// and 0.71 but gives no coordinates; the two below are the natural non-overlapping packings.
 namespace shapes {
 
-/// One pebble: a single sphere of diameter d (m).
-inline shape sphere(double diameter) {
-    detail::check_diameter(diameter);
-    shape s = make_shape("sphere", {{{}, 0.5 * diameter}});
+/// One pebble: a single sphere; both readings of its size are the same.
+inline shape sphere(grain_size size) {
+    detail::check_diameter(size.diameter);
+    shape s = make_shape("sphere", {{{}, 0.5 * size.diameter}});
     s.phi_nominal = 1.0;
+    s.reading = size.reading;
     return s;
 }
 
-/// "4B": four equal touching pebbles at the corners of a regular tetrahedron, r = R_c / (1 + sqrt(3/2)), 6 bonds;
-/// d = 2 R_c in m. Isotropic inertia.
-inline shape tetrahedron_4(double diameter) {
-    detail::check_diameter(diameter);
-    const double big = 0.5 * diameter;
+/// "4B": four equal touching pebbles at the corners of a regular tetrahedron, r = R_c / (1 + sqrt(3/2)), 6 bonds.
+/// Isotropic inertia. A nominal size of 2 cm is R_c = 14.0 mm, or 10 mm in the circumscribed reading.
+inline shape tetrahedron_4(grain_size size) {
+    detail::check_diameter(size.diameter);
+    if (size.reading == size_reading::equivalent) return scaled_to(tetrahedron_4(circumscribed(size.diameter)), size);
+    const double big = 0.5 * size.diameter;
     const double r = big / (1.0 + std::sqrt(1.5));
     const double c = (big - r) / std::numbers::sqrt3;
     shape s = make_shape("4B", {{{c, c, c}, r}, {{c, -c, -c}, r}, {{-c, c, -c}, r}, {{-c, -c, c}, r}});
     s.phi_nominal = 0.71;
+    detail::read_size(s, size.reading);
     return s;
 }
 
-/// "14B": octahedral Apollonian packing in a sphere of diameter d (m): 6 pebbles r1 = R_c / (1 + sqrt 2) on the axes,
-/// and 8 in the octants, each tangent to three big ones and to the circumscribed sphere; 12 + 24 = 36 bonds.
-/// Isotropic inertia.
-inline shape apollonian_14(double diameter) {
-    detail::check_diameter(diameter);
-    const double big = 0.5 * diameter;
+/// "14B": octahedral Apollonian packing in a sphere: 6 pebbles r1 = R_c / (1 + sqrt 2) on the axes, and 8 in the
+/// octants, each tangent to three big ones and to the circumscribed sphere; 12 + 24 = 36 bonds. Isotropic inertia. A
+/// nominal size of 2 cm is R_c = 12.4 mm, or 10 mm in the circumscribed reading.
+inline shape apollonian_14(grain_size size) {
+    detail::check_diameter(size.diameter);
+    if (size.reading == size_reading::equivalent) return scaled_to(apollonian_14(circumscribed(size.diameter)), size);
+    const double big = 0.5 * size.diameter;
     const double r1 = big / (1.0 + std::numbers::sqrt2);
     const double axis = std::numbers::sqrt2 * r1;
     // |n s - c1| = r1 + r2 with s = R_c - r2, n = (1,1,1)/sqrt 3 and c1 = (axis, 0, 0) is linear in s
@@ -327,6 +367,7 @@ inline shape apollonian_14(double diameter) {
             for (const double z : {c, -c}) pebbles.push_back({{x, y, z}, r2});
     shape result = make_shape("14B", std::move(pebbles));
     result.phi_nominal = 0.86;
+    detail::read_size(result, size.reading);
     return result;
 }
 

@@ -61,7 +61,7 @@ inline std::vector<placed_grain> read_bare_packing(const std::string& path, cons
             throw wrong(line.line, "four numbers say nothing of shapes and orientations, which matter here");
         const std::vector<double>& v = line.values;
         if (!(v[3] > 0.0)) throw wrong(line.line, fmt::format("the diameter {} is not positive", v[3]));
-        grains.push_back({{0, v[3] / form.diameter}, {v[0], v[1], v[2]}, {}});
+        grains.push_back({{0, 0.5 * v[3] / form.circumscribed_radius}, {v[0], v[1], v[2]}, {}});
     }
     return grains;
 }
@@ -85,7 +85,7 @@ inline protocol::packing read_packing(const std::string& path, const mixture& of
             if (part == of.parts().size())
                 throw input_error(fmt::format("packing file {}, grain {}", path, grains.size() + 1),
                                   fmt::format("shape '{}'", r.shape), names, "Add it to the shapes of the test.");
-            grains.push_back({{part, r.d / of.parts()[part].form.diameter}, r.x, r.q});
+            grains.push_back({{part, 0.5 * r.d / of.parts()[part].form.circumscribed_radius}, r.x, r.q});
             return true;
         });
     } else {

@@ -64,15 +64,15 @@ inline shape from_file(const std::string& path, overlaps how = overlaps::refuse)
     return s;
 }
 
-/// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to the
-/// circumscribed diameter d (m); how: what to make of pebbles of a file that overlap. Throws input_error for an unknown
+/// Shape by its name on a command line: 14B, 4B, sphere, or the path of a file (see from_file), scaled to a
+/// nominal size; how: what to make of pebbles of a file that overlap. Throws input_error for an unknown
 /// name or a wrong file.
-inline shape by_name(const std::string& text, double diameter, overlaps how = overlaps::refuse) {
-    if (text == "14B" || text == "14b") return apollonian_14(diameter);
-    if (text == "4B" || text == "4b") return tetrahedron_4(diameter);
-    if (text == "sphere") return sphere(diameter);
-    detail::check_diameter(diameter);
-    return scaled_to(from_file(text, how), diameter);
+inline shape by_name(const std::string& text, grain_size size, overlaps how = overlaps::refuse) {
+    if (text == "14B" || text == "14b") return apollonian_14(size);
+    if (text == "4B" || text == "4b") return tetrahedron_4(size);
+    if (text == "sphere") return sphere(size);
+    detail::check_diameter(size.diameter);
+    return scaled_to(from_file(text, how), size);
 }
 
 } // namespace clast::shapes

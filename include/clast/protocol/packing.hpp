@@ -274,9 +274,9 @@ class packing {
         for (const placed_grain& g : grains_) {
             by_size.emplace_back(of.diameter(g), of.parts()[g.part].density_ratio * of.volume(g));
             half += 0.5 * by_size.back().second;
+            sizes_.largest_circumscribed = std::max(sizes_.largest_circumscribed, 2.0 * of.reach(g));
         }
         std::sort(by_size.begin(), by_size.end());
-        sizes_.largest_diameter = by_size.back().first;
         for (const auto& [d, mass] : by_size) {
             sizes_.d50 = d;
             if ((half -= mass) <= 0.0) break;

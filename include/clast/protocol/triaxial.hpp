@@ -25,14 +25,24 @@
 
 namespace clast {
 
-/// Stiffness and friction of the pieces as Table 1 of the paper prints them; a contact inherits from both of its pieces
-/// in series. Platens and membrane have no friction by default (paper section 1: the usual frictionless walls).
+/// Stiffness and friction of the pieces after Table 1 of the paper; a contact inherits from both of its pieces in
+/// series. Platens and membrane have no friction by default (paper section 1: the usual frictionless walls).
+///
+/// The table prints 5.8e6 and 2.9e6 N/m for grains. They are read as values of a contact, as the contact table of PFC
+/// takes them, so a piece has twice as much; `table_1::of_pieces()` is the other reading, in which two grains share
+/// 2.9e6 N/m. Manual, page "readings".
 struct table_1 {
-    contacts::piece pebble{5.8e6, 2.9e6, 0.3};
+    contacts::piece pebble{1.16e7, 5.8e6, 0.3};
     contacts::piece platen{3.2e8, 1.6e8, 0.0};
     contacts::piece membrane{3.2e6, 1.6e6, 0.0};
     double density = 2650.0; ///< kg/m^3; not given in the paper: it enters the inertial number and the time step only
 
+    /// The printed stiffness as that of a pebble in series with what it touches.
+    static table_1 of_pieces() {
+        table_1 t;
+        t.pebble.normal_stiffness = 5.8e6, t.pebble.shear_stiffness = 2.9e6;
+        return t;
+    }
     contacts::linear between_grains() const { return contacts::linear::between(pebble, pebble); }
     contacts::linear at_platen() const { return contacts::linear::between(pebble, platen); }
     contacts::linear at_membrane() const { return contacts::linear::between(pebble, membrane); }
@@ -189,7 +199,7 @@ template <class P> class triaxial_test {
         const double d = s.diameter.si(), h = s.height.si();
         demand(s.porosity > 0.2 && s.porosity < 0.95, "porosity", s.porosity, "0.2 to 0.95", "The paper uses 0.58.");
         // toys; results that mean something need 10 grains and more across
-        const double largest = sizes(s).largest_diameter;
+        const double largest = sizes(s).largest_circumscribed;
         demand(d >= 2.2 * largest, "diameter (m)", d, "at least 2.2 grain diameters", "Make the specimen larger.");
         demand(h >= 2.2 * largest, "height (m)", h, "at least 2.2 grain diameters", "Make the specimen larger.");
         demand(s.confining.si() > 0.0, "confining (Pa)", s.confining.si(), "> 0", "The paper uses 1.5 and 2 MPa.");
@@ -250,7 +260,7 @@ template <class P> class triaxial_test {
         // else dig through to the axis. The paper's limit is the smallest particle, so that nothing slips out between
         // two rings; here tiles have ledges and nothing can, and with the smallest pebble of 14B (4.6 mm) the confining
         // stress of a bulging specimen was off by up to 0.8 %.
-        m.largest_gap = std::max(2.0 * m.smallest_radius, std::min(grains.d50, 0.25 * m.radius));
+        m.largest_gap = std::max(2.0 * m.smallest_radius, std::min(grains.largest_circumscribed, 0.25 * m.radius));
         // under an overlap that is small, but not nothing: some laws start from zero stiffness
         const double r = m.smallest_radius;
         m.contact_stiffness_floor = s.materials.at_membrane().normal_stiffness({0, 0, 1, 1e-3 * r, 1.0 / r, 0.0});

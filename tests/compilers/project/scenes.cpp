@@ -18,12 +18,12 @@
 #include <vector>
 
 #include <clast/bodies/spheres.hpp>
-#include <clast/spaces/periodic.hpp>
 #include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/core/random.hpp>
 #include <clast/engine/engine.hpp>
 #include <clast/io/archive.hpp>
+#include <clast/spaces/periodic.hpp>
 #include <fmt/core.h>
 
 #include "engine/scenes.hpp"
@@ -45,7 +45,7 @@ struct clumps {
         auto s = scenes::settings<policies>(1.5e6, 0.12); // Pa; the share of the strength of bonds
         s.run = execution(threads);
         s.contacts_per_thread = 8; // cut even this scene into ranges
-        return scenes::packed<policies>(s, shapes::apollonian_14(diameter), 60, 0.052, stress, 1500);
+        return scenes::packed<policies>(s, shapes::apollonian_14(circumscribed(diameter)), 60, 0.052, stress, 1500);
     }
     static void press(engine<policies>& e) {
         e.breakage_on = true;
@@ -63,7 +63,7 @@ struct spheres {
         using contact = contacts::linear_dashpot;
         using body = bodies::spheres;
         using boundary = boundaries::none;
-    using space = spaces::periodic;
+        using space = spaces::periodic;
         using breakage = criteria::none;
         using replacement = replacements::none;
     };
