@@ -14,6 +14,7 @@
 #include <clast/constraints/held.hpp>
 #include <clast/constraints/none.hpp>
 #include <clast/contacts/by_material.hpp>
+#include <clast/contacts/hertz_mindlin.hpp>
 #include <clast/contacts/linear.hpp>
 #include <clast/contacts/linear_dashpot.hpp>
 #include <clast/contacts/rolling.hpp>

@@ -8,10 +8,10 @@ namespace clast::contacts {
 
 /// Linear contact with Coulomb friction whose normal spring is damped:
 ///
-///     F_n = k_n depth + gamma m_eff v,   m_eff = m_i m_j / (m_i + m_j),   |F_s| <= mu |F_n|
+///     F_n = k_n depth + gamma m_eff v,   m_eff = m_i m_j / (m_i + m_j),   |F_s| <= mu max(F_n, 0)
 ///
 /// with v the speed of approach and the masses of the two bodies (at a wall m_eff is that of the body). Just before
-/// separation F_n may pull. Restitution of a central collision e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)).
+/// separation F_n may pull, and nothing rubs then. Restitution of a central collision e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)).
 /// Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
 struct linear_dashpot {
     double kn = 0.0;    ///< normal stiffness of the contact (N/m)
@@ -30,7 +30,7 @@ struct linear_dashpot {
     [[gnu::always_inline]] response<T> operator()(const overlap<T>& o, const motion<T>& m, history& h,
                                                   double dt) const {
         const T fn = normal_force(o, m);
-        response<T> r = tangential_spring(o, m, h, fn, T(ks), mu * (fn > 0.0 ? fn : -fn));
+        response<T> r = tangential_spring(o, m, h, fn, T(ks), mu * (fn > 0.0 ? fn : T(0.0)));
         r.dissipated += o.depth > 0.0 ? damper(o, m) * m.approach * dt : T(0.0);
         return r;
     }
