@@ -103,14 +103,15 @@ concept swept = std::movable<S> && requires(S& s, const S& c, std::size_t b, vec
 /// What a test asks of them beyond: it starts from an empty table and a density, adds grains of shapes, each of `scale`
 /// times the size of its shape and of some material (a number, and its density over that of the specimen), counts them
 /// and their volume. kind_of(shape) is what add() takes for it; it throws input_error where bodies cannot be of it.
-/// add() answers with the number of the body.
+/// add() answers with the number of the body. ball_mass() is the mass of a pebble as a solid ball (kg).
 template <class S>
 concept specimen = swept<S> && std::default_initializable<S> &&
-    requires(S& s, const S& c, const shape& grain, vec3 x, quaternion q) {
+    requires(S& s, const S& c, const shape& grain, vec3 x, quaternion q, std::size_t b) {
     s.density = 1.0;
     { s.add(s.kind_of(grain), x, q, 1.0) } -> std::convertible_to<std::int32_t>;
     s.set_material(std::size_t{}, std::uint8_t{}, 1.0);
     { c.grain_count() } -> std::same_as<std::size_t>;
+    { c.ball_mass(b) } -> std::same_as<double>;
     { c.solid_volume() } -> std::same_as<double>;
 };
 } // namespace bodies

@@ -89,6 +89,7 @@ struct spheres {
     double bounding_radius(std::size_t b) const { return pebbles[b].radius; }
     index_range pebbles_of(std::size_t b) const { return {b, b + 1}; }
     double body_mass(std::size_t b) const { return 1.0 / pebbles[b].inverse_mass; }
+    double ball_mass(std::size_t p) const { return body_mass(p); } ///< a pebble is a body (kg)
     vec3 body_inertia(std::size_t b) const {
         const double i = 1.0 / pebbles[b].inverse_inertia;
         return {i, i, i};

@@ -68,6 +68,8 @@ inline constexpr column<sample> series_columns[] = {
     {"replaced", "", [](sample& r) -> cell { return &r.replaced; }},
     {"broken_tension", "", [](sample& r) -> cell { return &r.broken_tension; }},
     {"broken_shear", "", [](sample& r) -> cell { return &r.broken_shear; }},
+    {"hardin_Br", "", [](sample& r) -> cell { return &r.hardin_br; }},
+    {"einav_B", "", [](sample& r) -> cell { return &r.einav_b; }},
     {"escaped", "", [](sample& r) -> cell { return &r.escaped; }},
     {"kinetic_energy", "J", [](sample& r) -> cell { return &r.kinetic_energy; }},
     {"elastic_energy", "J", [](sample& r) -> cell { return &r.elastic_energy; }},

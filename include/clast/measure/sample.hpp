@@ -40,6 +40,8 @@ struct sample {
     std::int64_t replaced = 0;          ///< clumps replaced by bonded clusters so far
     std::int64_t broken_tension = 0;    ///< bonds broken in tension so far
     std::int64_t broken_shear = 0;      ///< bonds broken in shear so far
+    double hardin_br = 0.0;             ///< relative breakage B_r (Hardin 1985), by equivalent diameters
+    double einav_b = 0.0;               ///< B (Einav 2007) towards a grading of dimension 2.6
     std::int64_t escaped = 0;           ///< grains outside the boundary (a run stops at the first)
     double kinetic_energy = 0.0;        ///< (J)
     double elastic_energy = 0.0;        ///< contacts, facets and bonds (J)

@@ -20,6 +20,7 @@
 #include <clast/core/errors.hpp>
 #include <clast/core/vector.hpp>
 #include <clast/engine/engine.hpp>
+#include <clast/measure/breakage.hpp>
 #include <clast/measure/pebbles.hpp>
 #include <clast/measure/sample.hpp>
 #include <clast/measure/stress.hpp>
@@ -53,6 +54,7 @@ template <class P> class runner {
         : sim(e), plan(protocol::completed(std::move(p))), membrane_(membrane), speed_(plan, e.grains.density) {
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
+        finer_ = measure::relative_breakage(measure::pieces_of(sim));
         reference_height_ = sim.boundary.height();
         reference_volume_ = sim.boundary.volume();
     }
@@ -159,6 +161,10 @@ template <class P> class runner {
         const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, c.mean_overlap, curvature, curvature});
         s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
         measure::add_totals(sim, s);
+        if (s.replaced > 0) {
+            const std::vector<measure::piece> pieces = measure::pieces_of(sim);
+            s.hardin_br = finer_.hardin(pieces), s.einav_b = finer_.einav(pieces);
+        }
         // of the energy that went through the specimen in this stage: work, or what was lost where no wall works
         const double lost_here = s.friction_dissipation + s.damping_dissipation - stage_losses_;
         const double work = std::max(std::abs(s.boundary_work - stage_work_), lost_here);
@@ -421,6 +427,7 @@ template <class P> class runner {
     double row_start_ = 0.0;                    ///< axial strain at the start of the stage
     double wall_time_ = 0.0;
     double friction_ = 0.0, solid_volume_ = 0.0;
+    measure::relative_breakage finer_; ///< than at the start
     stage_view view_;
     std::vector<double> memory_; ///< of the condition of this stage
     measure::contact_state contacts_;
