@@ -2,6 +2,9 @@
 // One triaxial test in one kind of membrane, from a specimen that all kinds share, and how well the membrane keeps its
 // balance along the axis: between the bottom and a section z it may pass on sigma_3 (A(z) - A_bottom) and nothing else.
 // Prints a line of JSON.
+//
+// For the cost of a step: --keep FILE saves the state of the end; --from FILE --steps N goes N steps from there, in the
+// function steps_to_count, and does nothing else.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,8 +20,10 @@
 #include <clast/boundaries/solid_strips.hpp>
 #include <clast/boundaries/stepped_tiles.hpp>
 #include <clast/boundaries/tiles.hpp>
+#include <clast/io/checkpoint.hpp>
 #include <clast/io/packing.hpp>
 #include <clast/io/shapes.hpp>
+#include <clast/measure/digest.hpp>
 #include <clast/protocol/triaxial.hpp>
 
 using namespace clast;
@@ -26,9 +31,10 @@ using namespace clast;
 namespace {
 
 struct call {
-    std::string membrane, shape = "4B", packing, save;
+    std::string membrane, shape = "4B", packing, save, keep, from;
     double scale = 0.3, strain = 0.25, inertial_number = 1e-3;
     int rings = 0, around = 10;
+    std::int64_t steps = 200;
     std::uint64_t seed = 1;
 };
 
@@ -121,6 +127,23 @@ template <class Test> struct watch : observer {
     }
 };
 
+/// For tools that count the instructions of one function.
+template <class Test> [[gnu::noinline]] void steps_to_count(Test& test, std::int64_t steps) { test.sim().step(steps); }
+
+/// Goes some steps from a state that was kept, and says what the wall had to do in the last of them.
+template <class Test> int go_on(Test& test, const call& c) {
+    load_checkpoint(c.from, c.membrane, test);
+    steps_to_count(test, c.steps);
+    std::size_t rows = 0, touching = 0, touches = 0;
+    test.sim().each_wall_row([&](const auto& w) {
+        ++rows, touching += w.touch.size > 0, touches += static_cast<std::size_t>(w.touch.size);
+    });
+    fmt::print("{{\"membrane\": \"{}\", \"steps\": {}, \"pebbles_at_wall\": {}, \"touching\": {}, \"touches\": {}, "
+               "\"digest\": \"{:016x}\"}}\n",
+               c.membrane, c.steps, rows, touching, touches, measure::digest(test.sim()));
+    return 0;
+}
+
 template <class B> int run(const call& c) {
     const double diameter = 0.3 * c.scale, height = 0.7 * c.scale;
     using test_type = triaxial_test<policies<B>>;
@@ -150,9 +173,11 @@ template <class B> int run(const call& c) {
     std::vector<stage> stages{protocol::consolidation(), protocol::shear(quantities::ratio{c.strain})};
     test_type test(setup(c.packing.empty() ? protocol::packing{} : read_packing(c.packing, grain)),
                    c.packing.empty() ? protocol::triaxial_compression(quantities::ratio{c.strain}) : stages);
+    if (!c.from.empty()) return go_on(test, c);
     watch<test_type> w;
     w.test = &test, w.last = c.strain, w.sections = std::max(test.setup().rings, 2);
     test.run(w);
+    if (!c.keep.empty()) save_checkpoint(c.keep, c.membrane, test);
     const double n = std::max(w.rows, 1);
     fmt::print("{{\"membrane\": \"{}\", \"shape\": \"{}\", \"scale\": {}, \"seed\": {}, \"grains\": {}, \"rings\": {}, "
                "\"around\": {}, \"I\": {}, \"isotropic_worst\": {:.5f}, \"isotropic_unequal\": {:.5f}, \"worst\": "
@@ -186,6 +211,9 @@ int main(int count, char** words) {
         if (option == "--shape") c.shape = value;
         if (option == "--packing") c.packing = value;
         if (option == "--save") c.save = value;
+        if (option == "--keep") c.keep = value;
+        if (option == "--from") c.from = value;
+        if (option == "--steps") c.steps = std::atoll(value.c_str());
         if (option == "--scale") c.scale = std::atof(value.c_str());
         if (option == "--strain") c.strain = std::atof(value.c_str());
         if (option == "--inertial-number") c.inertial_number = std::atof(value.c_str());
