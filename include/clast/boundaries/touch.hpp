@@ -191,8 +191,10 @@ struct wall_row {
     touches touch;
 
     /// Force (N) along the normal of one of its touches: lateral facets share by their parts of the way out.
-    double share(const boundaries::touch& t) const {
-        return t.at_platen() ? platen[t.platen()] : lateral * t.depth / norm(lateral_push(touch));
+    double share(const boundaries::touch& t) const { return share(t, norm(lateral_push(touch))); }
+    /// The same where the length of the lateral way out, norm(lateral_push(touch)), is known (m).
+    double share(const boundaries::touch& t, double way) const {
+        return t.at_platen() ? platen[t.platen()] : lateral * t.depth / way;
     }
     template <class A> void archive(A& a) { a(pebble); } // the rest is written anew by the next step
 };

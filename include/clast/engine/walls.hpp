@@ -82,30 +82,34 @@ void add_loads(const S& s, const std::vector<boundaries::wall_row>& wall, double
                std::vector<boundaries::facet_load>& loads, std::vector<boundaries::coupling>* couplings = nullptr) {
     for (const boundaries::wall_row& w : wall) {
         if (w.touch.size == 0) continue;
+        // of all lateral touches of a pebble alike: four nodes to a face would each work them out again
         const double way = norm(boundaries::lateral_push(w.touch));
+        const double lateral =
+            way > 0.0 ? s.settings.lateral_contact.normal_stiffness(s.overlap_at_wall(w.pebble, way)) : 0.0;
         const auto stiffness = [&](const boundaries::touch& t) {
-            return law_at(s, t).normal_stiffness(s.overlap_at_wall(w.pebble, t.at_platen() ? t.depth : way));
+            return t.at_platen() ? s.settings.platen_contact.normal_stiffness(s.overlap_at_wall(w.pebble, t.depth))
+                                 : lateral;
         };
         if (couplings == nullptr || w.touch.size == 1 || boundaries::is_one_face(w.touch)) {
             // a face that several facets span: each against what all of its facets do together
             for (const boundaries::touch& t : w.touch)
-                loads[s.at(t.facet)].add(t, share * w.share(t), share * stiffness(t) * t.part);
+                loads[s.at(t.facet)].add(t, share * w.share(t, way), share * stiffness(t) * t.part);
             continue;
         }
         const boundaries::sharing shared(w.touch);
         std::array<const boundaries::touch*, boundaries::most_touches> seen{};
-        std::size_t lateral = 0;
+        std::size_t faces = 0;
         for (const boundaries::touch& t : w.touch) {
-            const double f = w.share(t), k = stiffness(t);
+            const double f = w.share(t, way), k = stiffness(t);
             if (t.at_platen()) {
                 loads[s.at(t.facet)].add(t, share * f, share * k);
                 continue;
             }
-            loads[s.at(t.facet)].add(t, share * f, share * k * shared(lateral, lateral) * (t.part * t.part));
-            for (std::size_t j = 0; j < lateral; ++j)
+            loads[s.at(t.facet)].add(t, share * f, share * k * shared(faces, faces) * (t.part * t.part));
+            for (std::size_t j = 0; j < faces; ++j)
                 couplings->push_back({seen[j]->facet, t.facet,
-                                      k * shared(lateral, j) * seen[j]->along * t.along * (seen[j]->part * t.part)});
-            seen[lateral++] = &t;
+                                      k * shared(faces, j) * seen[j]->along * t.along * (seen[j]->part * t.part)});
+            seen[faces++] = &t;
         }
     }
 }
