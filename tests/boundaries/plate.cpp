@@ -64,6 +64,23 @@ TEST_CASE("the foot on a triangle is its nearest point", "[boundaries]") {
     CHECK(faces > 8);
 }
 
+TEST_CASE("the foot inside a face is the foot on the triangle, bit by bit", "[boundaries]") {
+    random_stream random{13, 0};
+    const auto u = [&] { return 2.0 * uniform01(random) - 1.0; };
+    int inside = 0, by_an_edge = 0;
+    for (int run = 0; run < 3000; ++run) {
+        const plate p = of({u(), u(), u()}, {u(), u(), u()}, {u(), u(), u()}, {u(), u(), u()});
+        const vec3 x{2 * u(), 2 * u(), 2 * u()};
+        const foot one = foot_inside(p.a, p.b, p.c, x, 0.1), other = foot_on(p, x);
+        const double least = *std::min_element(other.weights.begin(), other.weights.end());
+        CHECK(one.on_face == (least > 0.1));
+        if (one.on_face) CHECK(one.weights == other.weights);
+        inside += one.on_face, by_an_edge += other.on_face && !one.on_face;
+    }
+    CHECK(inside > 20);
+    CHECK(by_an_edge > 20);
+}
+
 TEST_CASE("a sphere on a plate is pushed along its normal, by the parts of the corners", "[boundaries]") {
     const plate floor = of({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     CHECK(floor.n == vec3{0, 0, 1});

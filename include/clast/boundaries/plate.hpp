@@ -64,6 +64,19 @@ inline foot foot_on(const plate& t, const vec3& x) {
     return {{1.0 - v - w, v, w}, true};
 }
 
+/// foot_on() for an x over the inner part of the face, at least this part of the whole from each edge; else all weights
+/// are 0.
+inline foot foot_inside(const vec3& a, const vec3& b, const vec3& c, const vec3& x, double from_edge) {
+    const vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
+    const double d1 = dot(ab, ax), d2 = dot(ac, ax), d3 = dot(ab, bx), d4 = dot(ac, bx), d5 = dot(ab, cx),
+                 d6 = dot(ac, cx);
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    const double least = from_edge * (va + vb + vc);
+    if (!(va > least && vb > least && vc > least)) return {{}, false};
+    const double whole = 1.0 / (va + vb + vc), v = vb * whole, w = vc * whole;
+    return {{1.0 - v - w, v, w}, true};
+}
+
 /// Over the face the distance is signed along the inward normal, so that a centre that passed the plane is still pushed
 /// back in; beyond an edge it is that from the edge.
 inline separation separate(const plate& t, const vec3& x) {
@@ -109,6 +122,9 @@ class plates_near {
     plates_near() {}
 };
 
+/// No finer than this part of a radius: normals of neighbouring plates may be nearly parallel.
+inline constexpr double plate_precision = 1e-11;
+
 /// Contacts of a sphere with a closed wall of plates, given those near it: adds to `out` the nodes
 /// that push, `part` by `part` of every plate that does. As long as the centre is inside, the force k u is minus the
 /// gradient of k |u|^2 / 2 for any motion of sphere and nodes; one that got out, beyond a valley too, is pushed back
@@ -138,7 +154,6 @@ void push_out(const plates_near& near, const vec3& x, double r, Outward&& outwar
             first = {-first.distance, unit(inward)};
         }
     }
-    // no finer: normals of neighbouring plates may be nearly parallel
     const auto report = [&](std::size_t j, const vec3& n, double depth, const vec3& way) {
         const plate& t = plates[j];
         const foot f = foot_on(t, x + way); // where the sphere touches once it is free
@@ -148,7 +163,7 @@ void push_out(const plates_near& near, const vec3& x, double r, Outward&& outwar
             if (part > 0.0) out.add({t.node[i], n, part * depth, -dot(n, outward(t.node[i])), part});
         }
     };
-    detail::way_out<plates_near::most>(plates, x, r, deepest, first, u, 1e-11 * r, report);
+    detail::way_out<plates_near::most>(plates, x, r, deepest, first, u, plate_precision * r, report);
 }
 
 } // namespace clast::boundaries
