@@ -150,8 +150,8 @@ TEST_CASE("what is found near a sphere is what all triangles together do", "[bou
 
 TEST_CASE("near says yes wherever a triangle is within reach and no well beyond", "[boundaries]") {
     random_stream random{8, 0};
-    for (const double by : {0.001, 0.009}) {
-        const movable wall = crumpled(8, 10, by, 3);
+    for (const double by : {0.001, 0.009, -0.009}) {
+        const movable wall = crumpled(8, 10, by, 3, by < 0.0);
         const std::vector<plate> all = triangles_of(wall);
         for (int k = 0; k < 400; ++k) {
             const double r = between(random, 0.0015, 0.008);

@@ -81,9 +81,22 @@ TEST_CASE("a triangle of a quadrilateral hangs on two of its nodes, and by a qua
         plate again = p;
         again.orient();
         CHECK(again.n == p.n);
-        // over its middle no other one is named
+        // over its middle no other one is named; outside of the frame of diagonals by no more than `aside`
         const vec3 x = (1.0 / 3.0) * (p.a + p.b + p.c) + 0.1 * p.n;
         CHECK(place_among_quarters(one.c, one.q, x).quarter() == k);
+    }
+    for (int run = 0; run < 300; ++run) {
+        const whole w(crooked(random, 0.3));
+        const std::size_t k = static_cast<std::size_t>(run) % 4;
+        const double b = uniform01(random), c = (1.0 - b) * uniform01(random);
+        const plate& p = w.parts[k];
+        const vec3 x = (1.0 - b - c) * p.a + b * p.b + c * p.c; // on the triangle
+        const place_among_quarters at(w.c, w.q, x);
+        const double off = at.aside(w.c) * (1.0 + 1e-12);
+        const double right = k == 1 || k == 2 ? at.alpha : -at.alpha, high = k >= 2 ? at.beta : -at.beta;
+        CHECK(right >= -off);
+        CHECK(high >= -off);
+        CHECK(right + high <= at.span + off);
     }
 }
 

@@ -249,13 +249,13 @@ double node_net<X>::gather(const vec3& x, double r, double margin, double ahead,
     const auto look_into = [&](const near_one& o, const corners& c, const quadrilateral& q,
                                const quarter_normals& normals) {
         const place_among_quarters at(c, q, x);
-        const double aside2 = std::max(0.0, reach * reach - o.above * o.above);
+        const double aside2 = std::max(0.0, reach * reach - o.above * o.above), off = at.aside(c);
         const double past_alpha2 = aside2 * norm2(at.a), past_beta2 = aside2 * norm2(at.b);
         for (std::size_t k = 0; k < 4; ++k) {
             const double right = k == 1 || k == 2 ? at.alpha : -at.alpha, high = k >= 2 ? at.beta : -at.beta;
-            if (right < 0.0 && right * right > past_alpha2) continue;
-            if (high < 0.0 && high * high > past_beta2) continue;
-            const double past_edge = right + high - at.span;
+            if (right < -off && (right + off) * (right + off) > past_alpha2) continue;
+            if (high < -off && (high + off) * (high + off) > past_beta2) continue;
+            const double past_edge = right + high - at.span - off;
             if (past_edge > 0.0 && past_edge * past_edge > aside2 * norm2(k % 2 == 0 ? at.a + at.b : at.a - at.b))
                 continue;
             keep(quarter(c, q.middle, k, normals[k], nodes_of(o.strip, o.face)));

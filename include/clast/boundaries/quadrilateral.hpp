@@ -62,7 +62,8 @@ inline plate quarter(const corners& c, const vec3& middle, std::size_t k, const 
 }
 
 /// A place in the frame of a quadrilateral's diagonals: x = middle + alpha (C - A) / 2 + beta (D - B) / 2 + what is
-/// along the normal, both times `span`. Their signs tell triangles apart.
+/// along the normal, both times `span`. Their signs tell triangles apart, but for `aside`: the diagonals pass the
+/// middle at this much on either side.
 struct place_among_quarters {
     vec3 a, b; ///< gradients of alpha and beta
     double span, alpha, beta;
@@ -72,6 +73,10 @@ struct place_among_quarters {
         a = cross(q.normal, across), b = cross(up, q.normal);
         span = dot(up, a); // = dot(across, b)
         alpha = dot(a, d), beta = dot(b, d);
+    }
+    double aside(const corners& c) const {
+        const vec3 w = 0.25 * ((c[0] + c[2]) - (c[1] + c[3]));
+        return std::abs(dot(a, w)) + std::abs(dot(b, w));
     }
     /// The triangle that x is over, or next to it.
     std::size_t quarter() const { return beta < 0.0 ? (alpha < 0.0 ? 0 : 1) : (alpha < 0.0 ? 3 : 2); }
