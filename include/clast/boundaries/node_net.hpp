@@ -47,8 +47,11 @@ template <class = void> class node_net : public facet_rings<> {
         platens_.touch_sphere(x, r, ahead, out);
         // the way out may be longer than the deepest overlap and then meets more plates
         double margin = 0.25 * r;
+        const double inner = least_ - nearer(ahead) - (r + margin);
+        if (inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner) return out;
+        if (touch_one(x, r, margin, ahead, out).has_value()) return out;
         const surroundings around = quads_around(x, r + margin, ahead);
-        if (around.out_of_reach || touch_one(x, r, margin, ahead, around, out).has_value()) return out;
+        if (around.out_of_reach) return out;
         plates_near seen;
         const double deepest = gather(x, r, margin, ahead, around, seen);
         if (deepest <= 0.0) return out;
@@ -110,16 +113,18 @@ template <class = void> class node_net : public facet_rings<> {
         double least = 0.0;        ///< least apothem of their faces (m)
         bool out_of_reach = false; ///< none of their plates is within reach
     };
+    /// How far a row rises or sinks, and how much nearer a face comes, at most (m).
+    double drift(double ahead) const {
+        if (ahead == 0.0) return 0.0;
+        return std::abs(ahead) * std::max(std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]));
+    }
+    double nearer(double ahead) const { return ahead == 0.0 ? 0.0 : flat_ * std::abs(ahead) * lateral_speed_; }
     surroundings quads_around(const vec3& x, double reach, double ahead) const {
-        double drift = 0.0, nearer = 0.0;
-        if (ahead != 0.0) {
-            drift = std::abs(ahead) * std::max(std::abs(platens_.velocity[0]), std::abs(platens_.velocity[1]));
-            nearer = flat_ * std::abs(ahead) * lateral_speed_;
-        }
-        surroundings s{strip_at(x.z - reach - drift), strip_at(x.z + reach + drift)};
+        const double up = reach + drift(ahead);
+        surroundings s{strip_at(x.z - up), strip_at(x.z + up)};
         double least = strip_least_[index(s.first + 1)];
         for (int q = s.first + 1; q <= s.last; ++q) least = std::min(least, strip_least_[index(q + 1)]);
-        s.least = least - nearer;
+        s.least = least - nearer(ahead);
         const double inner = s.least - reach;
         s.out_of_reach = inner >= 0.0 && x.x * x.x + x.y * x.y <= inner * inner;
         return s;
@@ -188,14 +193,13 @@ template <class = void> class node_net : public facet_rings<> {
                   plates_near& seen) const;
     /// What is easy, as it is for nearly all spheres: adds the contacts of one that touches, by less than margin, a
     /// plate of the quadrilateral in front of it on its face, and no other (then true), or sees that it touches none
-    /// (false). Nothing, and nothing done, where it may be otherwise. `around`: what is within r + margin.
-    std::optional<bool> touch_one(const vec3& x, double r, double margin, double ahead, const surroundings& around,
-                                  touches& out) const;
+    /// (false). Nothing, and nothing done, where it may be otherwise.
+    std::optional<bool> touch_one(const vec3& x, double r, double margin, double ahead, touches& out) const;
 
     /// Whether a sphere that rests in a quadrilateral is free of all others: each of them lies between two rows and
     /// between two planes through the axis.
     bool is_free_beyond(const resting_sphere& s, int strip, int face, const corners& c, double ahead,
-                        const surroundings& around, double tolerance) const;
+                        double tolerance) const;
     /// Whether the face of a plate in front of x is within reach: what near() is about, most often.
     bool in_front(const vec3& x, double reach) const;
 
@@ -210,6 +214,7 @@ template <class = void> class node_net : public facet_rings<> {
     std::vector<vec3> node_;
     std::vector<corners> corners_;
     std::vector<quarter_normals> normals_;
+    double least_ = 0.0; // of strip_least_ (m)
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
@@ -234,7 +239,7 @@ double node_net<X>::gather(const vec3& x, double r, double margin, double ahead,
                            plates_near& seen) const {
     seen.clear();
     double deepest = 0.0;
-    const double reach = r + margin, slack = flat_ * std::abs(ahead) * lateral_speed_;
+    const double reach = r + margin, slack = nearer(ahead);
     const auto keep = [&](const plate& p) {
         const separation s = separate(p, x);
         if (s.distance >= reach) return;
@@ -284,8 +289,7 @@ double node_net<X>::gather(const vec3& x, double r, double margin, double ahead,
 }
 
 template <class X>
-std::optional<bool> node_net<X>::touch_one(const vec3& x, double r, double margin, double ahead,
-                                           const surroundings& around, touches& out) const {
+std::optional<bool> node_net<X>::touch_one(const vec3& x, double r, double margin, double ahead, touches& out) const {
     const int strip = strip_at(x.z), face = dir_.towards(x.x, x.y);
     return with_quad(
         strip, face, ahead,
@@ -305,7 +309,7 @@ std::optional<bool> node_net<X>::touch_one(const vec3& x, double r, double margi
             // No way out is shorter than an overlap: one that frees the sphere from all plates is that of the deepest.
             const double allowed = touches_it ? tolerance : 0.0;
             if (!free.is_free_of(c, q.middle, normals, own, allowed)) return {};
-            if (!is_free_beyond(free, strip, face, c, ahead, around, allowed)) return {};
+            if (!is_free_beyond(free, strip, face, c, ahead, allowed)) return {};
             if (!touches_it) return false;
             std::array<double, 4> part;
             part.fill(0.25 * f.weights[2]);
@@ -322,8 +326,10 @@ std::optional<bool> node_net<X>::touch_one(const vec3& x, double r, double margi
 
 template <class X>
 bool node_net<X>::is_free_beyond(const resting_sphere& s, int strip, int face, const corners& c, double ahead,
-                                 const surroundings& around, double tolerance) const {
-    const int first = s.y.z - s.r < c[0].z ? around.first : strip, last = s.y.z + s.r > c[3].z ? around.last : strip;
+                                 double tolerance) const {
+    const double low = s.y.z - s.r, high = s.y.z + s.r;
+    const int first = low < c[0].z ? strip_at(low - drift(ahead)) : strip,
+              last = high > c[3].z ? strip_at(high + drift(ahead)) : strip;
     const auto of = [&](int i) {
         for (int k = first; k <= last; ++k) {
             if ((i == face && k == strip) || before_quad(s.y, k, i, ahead) >= s.r) continue;
@@ -392,6 +398,7 @@ template <class X> void node_net<X>::place() {
         }
         strip_least_[index(strip + 1)] = flat_ * least;
     }
+    least_ = *std::min_element(strip_least_.begin(), strip_least_.end());
 }
 
 } // namespace clast::boundaries
