@@ -2,7 +2,6 @@
 // Four corners of a wall that need not lie in one plane, as four triangles around their mean.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
