@@ -27,6 +27,7 @@
 #include <clast/grains/mixture.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/integrators/leapfrog.hpp>
+#include <clast/protocol/paths.hpp>
 #include <clast/protocol/triaxial.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>

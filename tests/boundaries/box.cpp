@@ -106,6 +106,20 @@ TEST_CASE("a box has three driven axes: y walls follow a drive of their own wher
     CHECK_THROWS_AS(b.control(loads, d, 1e-5), input_error);
 }
 
+TEST_CASE("lateral walls of a box take a volume at one speed") {
+    box b = unit_box();
+    const std::vector<facet_load> loads(6);
+    drives d = moving(0.1, 0.0);
+    d.lateral = {drive::mode::volume, -0.5, 1.0, 0.5};
+    b.control(loads, d, 1e-3);
+    double taken = 0.0;
+    for (int f = 2; f < 6; ++f) taken += b.area(f) * b.velocity(f);
+    CHECK(taken == Approx(-0.5).epsilon(1e-12));
+    CHECK(b.velocity(2) == b.velocity(5));
+    d.lateral.max_speed = 0.0;
+    CHECK_THROWS_AS(b.control(loads, d, 1e-3), input_error);
+}
+
 TEST_CASE("a box without inside is refused, walls that meet stop the run, and the rest comes back from an archive") {
     CHECK_THROWS_AS(box({{0, 0, 0}, {1, 0, 1}, 1e8, 1e6}), input_error);
     CHECK_THROWS_AS(box({{0, 0, 0}, {1, 1, 1}, 1e8, 0.0}), input_error);

@@ -21,7 +21,7 @@ TEST_CASE("drives that count in parts of the setup take its sizes, stress and in
     };
     add(kind::reach, true), add(kind::stress, true), add(kind::inertial, true), add(kind::rate, true);
     add(kind::stress, false);
-    const test_plan done = protocol::completed(p);
+    const test_plan done = protocol::completed(p, false);
     CHECK(done.stages[0].axial.value == 1.5);
     CHECK(done.stages[0].lateral.value == 1.0);
     CHECK(done.stages[1].axial.value == 2.5);

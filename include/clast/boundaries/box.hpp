@@ -94,7 +94,8 @@ class box {
     }
 
     /// `d.platens` drives the walls normal to z, `d.lateral` those normal to x, `d.lateral_y` (`d.lateral` where there
-    /// is none) those normal to y, each pair on its own load and area. A lateral velocity is that of each wall, inward.
+    /// is none) those normal to y, each pair on its own load and area. A lateral velocity is that of each wall, inward;
+    /// a volume is taken by all four lateral walls at one speed.
     void control(std::span<const facet_load> loads, const drives& d, double dt, std::span<const coupling> = {}) {
         check(d.platens, "drives.platens");
         check(d.lateral, "drives.lateral");
@@ -110,7 +111,9 @@ class box {
                                               0.5 * (one.stiffness + two.stiffness), set_.contact_stiffness_floor, dt,
                                               mine.gain, mine.max_speed});
             else
-                v = mine.how == drive::mode::velocity ? mine.value : 0.0;
+                v = mine.how == drive::mode::velocity ? mine.value
+                    : mine.how == drive::mode::volume ? mine.value / (2.0 * (area(lower(0)) + area(lower(1))))
+                                                      : 0.0;
         }
     }
     /// Throws run_error when two walls meet.

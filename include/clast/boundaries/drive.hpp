@@ -13,12 +13,14 @@ namespace clast::boundaries {
 
 /// Drive of one part of a boundary (both platens, or the lateral wall).
 struct drive {
-    enum class mode { hold, velocity, servo };
+    enum class mode { hold, velocity, servo, volume };
 
     mode how = mode::hold;
     double value = 0.0;     ///< velocity: inward speed of each facet (m/s; a platen moves at half the closing speed).
                             ///< servo: target stress (Pa), compression positive, >= 0
-    double max_speed = 0.0; ///< servo: largest facet speed (m/s), > 0
+                            ///< volume (lateral walls): what they take from the specimen per second (m^3/s); parts
+                            ///< that move on their own share it so that all come to one stress
+    double max_speed = 0.0; ///< servo: largest facet speed (m/s), > 0; volume: of what shares the stress
     double gain = 0.5;      ///< servo: share of the force error removed per step, in (0, 1)
 
     template <class A> void archive(A& a) { a(how, value, max_speed, gain); }
@@ -36,7 +38,10 @@ struct drives {
 
 /// Largest speed (m/s) that a drive may give a facet.
 inline double fastest(const drive& d) {
-    return d.how == drive::mode::servo ? d.max_speed : d.how == drive::mode::velocity ? std::abs(d.value) : 0.0;
+    using mode = drive::mode;
+    return d.how == mode::servo || d.how == mode::volume ? d.max_speed
+           : d.how == mode::velocity                     ? std::abs(d.value)
+                                                         : 0.0;
 }
 inline double fastest(const drives& d) {
     return std::max({fastest(d.platens), fastest(d.lateral), d.lateral_y ? fastest(*d.lateral_y) : 0.0});
@@ -47,8 +52,8 @@ inline void check(const drive& d, const char* name) {
     if (!std::isfinite(d.value))
         throw input_error(std::string(name) + ".value", fmt::format("{}", d.value), "finite",
                           "Set the stage's target.");
-    if (d.how != drive::mode::servo) return;
-    if (d.value < 0.0)
+    if (d.how != drive::mode::servo && d.how != drive::mode::volume) return;
+    if (d.how == drive::mode::servo && d.value < 0.0)
         throw input_error(std::string(name) + ".value", fmt::format("{} Pa", d.value), ">= 0 (compression positive)",
                           "A facet cannot pull on grains.");
     if (!(d.max_speed > 0.0))

@@ -99,6 +99,8 @@ template <moving_unit Unit, class Surface> class faceted_cylinder : public Surfa
     void solve_apart(const drive& d, std::span<const coupling> couplings);
     void servo_wall(const drive& d, double dt, std::span<const coupling> couplings);
     void control_gaps();
+    /// Adds one velocity to those of all facets, with which they take so much volume per second (m^3/s).
+    void take_volume(double rate);
 
     std::vector<control::calm> calm_; // per unit
     std::vector<std::uint8_t> latch_; // columns first, then rings
@@ -166,10 +168,13 @@ void faceted_cylinder<Unit, Surface>::control(std::span<const facet_load> loads,
                                         d.platens.gain, d.platens.max_speed})
             : (d.platens.how == mode::velocity ? d.platens.value : 0.0);
     platens_.velocity = {closing, closing};
-    if (d.lateral.how == mode::servo) {
+    if (d.lateral.how == mode::servo || d.lateral.how == mode::volume) {
+        drive to_one_stress = d.lateral;
+        if (d.lateral.how == mode::volume) to_one_stress.value = std::max(0.0, this->lateral_stress(loads));
         collect(loads, units_);
-        servo_wall(d.lateral, dt, couplings);
+        servo_wall(to_one_stress, dt, couplings);
         control_gaps();
+        if (d.lateral.how == mode::volume) take_volume(d.lateral.value);
     } else {
         std::fill(velocity_.begin(), velocity_.end(),
                   d.lateral.how == mode::velocity ? this->speed_of_faces(d.lateral.value) : 0.0);
@@ -274,6 +279,15 @@ template <moving_unit Unit, class Surface> void faceted_cylinder<Unit, Surface>:
     if constexpr (Unit == moving_unit::ring) // the chain runs along the first tiles of the rings
         for (int k = 0; k < rings_; ++k)
             for (int i = 1; i < around_; ++i) velocity_[tile(k, i)] = velocity_[tile(k, 0)];
+}
+
+template <moving_unit Unit, class Surface> void faceted_cylinder<Unit, Surface>::take_volume(double rate) {
+    double now = 0.0, area = 0.0;
+    for (int f = first_lateral_facet; f < this->facet_count(); ++f) {
+        now += this->area(f) * this->velocity(f);
+        area += this->area(f);
+    }
+    for (double& v : velocity_) v += (rate - now) / area;
 }
 
 template <moving_unit Unit, class Surface>

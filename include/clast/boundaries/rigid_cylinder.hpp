@@ -139,7 +139,9 @@ class rigid_cylinder {
             if (mine.how == drive::mode::servo)
                 return control::inward_velocity({mine.value * area_of_one, force, stiffness_of_one,
                                                  set_.contact_stiffness_floor, dt, mine.gain, mine.max_speed});
-            return mine.how == drive::mode::velocity ? mine.value : 0.0;
+            return mine.how == drive::mode::velocity ? mine.value
+                   : mine.how == drive::mode::volume ? mine.value / area_of_one
+                                                     : 0.0;
         };
         const facet_load &low = loads[bottom_platen], &high = loads[top_platen], &around = loads[wall];
         const double closing =

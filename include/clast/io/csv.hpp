@@ -54,6 +54,8 @@ inline constexpr column<sample> series_columns[] = {
     {"q_contacts", "Pa", [](sample& r) -> cell { return &r.q_contacts; }},
     {"sigma_1_love_weber", "Pa", [](sample& r) -> cell { return &r.sigma_1_love_weber; }},
     {"sigma_3_love_weber", "Pa", [](sample& r) -> cell { return &r.sigma_3_love_weber; }},
+    {"sigma_2", "Pa", [](sample& r) -> cell { return &r.sigma_2; }},
+    {"pore_pressure", "Pa", [](sample& r) -> cell { return &r.pore_pressure; }},
     {"void_ratio", "", [](sample& r) -> cell { return &r.void_ratio; }},
     {"porosity", "", [](sample& r) -> cell { return &r.porosity; }},
     {"phi_mob", "deg", [](sample& r) -> cell { return &r.phi_mob_deg; }},

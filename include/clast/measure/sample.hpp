@@ -13,26 +13,29 @@ namespace clast {
 
 /// State of the specimen at one instant. SI units; stress and strain are positive in compression.
 struct sample {
-    double time = 0.0;                  ///< model time (s)
-    std::string stage;                  ///< name of the running stage
-    double axial_strain = 0.0;          ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
-    double volumetric_strain = 0.0;     ///< 1 - V/V0, positive in compression
-    double height = 0.0;                ///< platen distance H (m)
-    double volume = 0.0;                ///< enclosed volume V (m^3)
-    double sigma_1 = 0.0;               ///< sigma_3 + q (Pa)
-    double sigma_3 = 0.0;               ///< mean membrane stress: force / area (Pa)
-    double p = 0.0;                     ///< sigma_3 + q / 3 = (sigma_1 + 2 sigma_3) / 3 (Pa)
-    double q = 0.0;                     ///< of the laboratory: (F - sigma_3 A_end) / (V / H), mean of both ends (Pa)
-    double q_contacts = 0.0;            ///< from contacts: sigma_1_love_weber - sigma_3_love_weber (Pa)
-    double sigma_1_love_weber = 0.0;    ///< axial stress from contacts (Pa)
-    double sigma_3_love_weber = 0.0;    ///< mean radial stress from contacts (Pa)
-    double void_ratio = 0.0;            ///< (V - V_s) / V_s with V_s the pebble volume
-    double porosity = 0.0;              ///< 1 - V_s / V
-    double phi_mob_deg = 0.0;           ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
-    double inertial_number = 0.0;       ///< paper Eq. 2
-    double unbalanced_ratio = 0.0;      ///< max |F_unbalanced| / mean sum |F_contact|
-    double confining_error = 0.0;       ///< |sum F - target sum A| / (target sum A), mean since the last sample
-    double confining_rms = 0.0;         ///< of the same for each facet that moves on its own: root mean square, now
+    double time = 0.0;               ///< model time (s)
+    std::string stage;               ///< name of the running stage
+    double axial_strain = 0.0;       ///< 1 - H/H0; H0 at the start of shear, before it that of the vessel
+    double volumetric_strain = 0.0;  ///< 1 - V/V0, positive in compression
+    double height = 0.0;             ///< platen distance H (m)
+    double volume = 0.0;             ///< enclosed volume V (m^3)
+    double sigma_1 = 0.0;            ///< sigma_3 + q (Pa)
+    double sigma_2 = 0.0;            ///< of the y walls of a box that is driven along three axes, else sigma_3 (Pa)
+    double sigma_3 = 0.0;            ///< mean membrane stress: force / area; in such a box of the x walls (Pa)
+    double p = 0.0;                  ///< sigma_3 + q / 3 = (sigma_1 + 2 sigma_3) / 3; in such a box the mean (Pa)
+    double q = 0.0;                  ///< of the laboratory: (F - sigma_3 A_end) / (V / H), mean of both ends; in such
+                                     ///< a box sqrt(3 J_2) (Pa)
+    double pore_pressure = 0.0;      ///< where the volume is kept: sigma_3 at the start of the stage - sigma_3 (Pa)
+    double q_contacts = 0.0;         ///< from contacts: sigma_1_love_weber - sigma_3_love_weber (Pa)
+    double sigma_1_love_weber = 0.0; ///< axial stress from contacts (Pa)
+    double sigma_3_love_weber = 0.0; ///< mean radial stress from contacts (Pa)
+    double void_ratio = 0.0;         ///< (V - V_s) / V_s with V_s the pebble volume
+    double porosity = 0.0;           ///< 1 - V_s / V
+    double phi_mob_deg = 0.0;        ///< asin((sigma_1 - sigma_3) / (sigma_1 + sigma_3)) (degrees)
+    double inertial_number = 0.0;    ///< paper Eq. 2
+    double unbalanced_ratio = 0.0;   ///< max |F_unbalanced| / mean sum |F_contact|
+    double confining_error = 0.0;    ///< |sum F - target sum A| / (target sum A), mean since the last sample
+    double confining_rms = 0.0;      ///< of the same for each facet that moves on its own: root mean square, now
     double median_overlap_over_r = 0.0; ///< overlap over the smaller radius, of touching contacts, walls included
     double max_overlap_over_r = 0.0;    ///< the largest of them
     double kappa = 0.0;                 ///< k_n / (p d)

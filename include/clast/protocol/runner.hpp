@@ -26,7 +26,9 @@
 #include <clast/measure/stress.hpp>
 #include <clast/measure/totals.hpp>
 #include <clast/protocol/check_specimen.hpp>
+#include <clast/protocol/follow.hpp>
 #include <clast/protocol/observer.hpp>
+#include <clast/protocol/path_stress.hpp>
 #include <clast/protocol/preparation.hpp>
 #include <clast/protocol/prepared.hpp>
 #include <clast/protocol/stage.hpp>
@@ -51,7 +53,8 @@ template <class P> class runner {
     /// `membrane`: of the boundary that takes the vessel's place in a stage with `membrane_here`, at the size that the
     /// vessel has then.
     runner(engine_type& e, test_plan p, const boundaries::vessel_settings& membrane)
-        : sim(e), plan(protocol::completed(std::move(p))), membrane_(membrane), speed_(plan, e.grains.density) {
+        : sim(e), plan(protocol::completed(std::move(p), protocol::has_three_axes<boundary_type>)), membrane_(membrane),
+          speed_(plan, e.grains.density) {
         friction_ = sim.friction();
         solid_volume_ = sim.grains.solid_volume();
         finer_ = measure::relative_breakage(measure::pieces_of(sim));
@@ -75,6 +78,7 @@ template <class P> class runner {
             stage_time_ += sim.dt();
             confining_now();
             if (speed_.yields(current())) protocol::give_way(sim, speed_, current());
+            follow();
             if (every > 0 && sim.totals().steps % every == 0) {
                 sim.place_all();
                 scene_watch_->on_step(sim.state());
@@ -132,18 +136,21 @@ template <class P> class runner {
         s.volume = b.volume();
         s.axial_strain = axial_strain();
         s.volumetric_strain = 1.0 - s.volume / reference_volume_;
-        s.sigma_3 = b.lateral_stress(sim.loads());
-        s.q = boundaries::deviator(b, sim.loads());
-        s.sigma_1 = s.sigma_3 + s.q;
-        s.p = s.sigma_3 + s.q / 3.0;
+        const protocol::path_stress stress = stresses();
+        s.sigma_1 = stress.sigma_1, s.sigma_2 = stress.sigma_2, s.sigma_3 = stress.sigma_3;
+        s.q = stress.q, s.p = stress.p;
+        if (running().lateral.how == axis_drive::kind::volume) s.pore_pressure = start_sigma_3_ - s.sigma_3;
         const mat3 lw = measure::love_weber(sim, s.volume);
         s.sigma_1_love_weber = lw(2, 2);
         s.sigma_3_love_weber = 0.5 * (lw(0, 0) + lw(1, 1));
-        s.q_contacts = s.sigma_1_love_weber - s.sigma_3_love_weber;
+        s.q_contacts = running().lateral_y ? protocol::deviator_of(lw(0, 0), lw(1, 1), lw(2, 2))
+                                           : s.sigma_1_love_weber - s.sigma_3_love_weber;
         s.void_ratio = (s.volume - solid_volume_) / solid_volume_;
         s.porosity = 1.0 - solid_volume_ / s.volume;
         const double sum = s.sigma_1 + s.sigma_3;
-        s.phi_mob_deg = sum > 0.0 ? std::asin(std::clamp(s.q / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
+        const double difference = running().lateral_y ? s.sigma_1 - s.sigma_3 : s.q;
+        s.phi_mob_deg =
+            sum > 0.0 ? std::asin(std::clamp(difference / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
         s.inertial_number =
             s.p > 0.0 ? std::abs(closing_speed()) / s.height * plan.grain_diameter / std::sqrt(s.p / sim.grains.density)
                       : 0.0;
@@ -154,9 +161,8 @@ template <class P> class runner {
         s.coordination = c.coordination;
         s.confining_error = error_count_ > 0 ? error_sum_ / static_cast<double>(error_count_) : 0.0;
         if constexpr (requires { b.confining_rms(sim.loads(), 1.0); })
-            if (const axis_drive& a = plan.stages[std::min(stage_, plan.stages.size() - 1)].lateral;
-                a.how == axis_drive::kind::stress && a.value > 0.0)
-                s.confining_rms = b.confining_rms(sim.loads(), a.value);
+            if (const double target = lateral_target(running()); target > 0.0 && !running().lateral_y)
+                s.confining_rms = b.confining_rms(sim.loads(), target);
         const double curvature = 2.0 / plan.grain_diameter;
         const double kn = sim.settings.grain_contact.normal_stiffness({0, 0, 1, c.mean_overlap, curvature, curvature});
         s.kappa = s.p > 0.0 ? kn / (s.p * plan.grain_diameter) : 0.0;
@@ -180,8 +186,8 @@ template <class P> class runner {
     template <class A> void archive(A& a) {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
-          reference_height_, reference_volume_, reference_, speed_, error_sum_, error_count_, next_row_, row_start_,
-          wall_time_, record_, records_, tries_, still_, handed_, view_, memory_);
+          reference_height_, reference_volume_, start_volume_, start_sigma_3_, reference_, speed_, error_sum_,
+          error_count_, next_row_, row_start_, wall_time_, record_, records_, tries_, still_, handed_, view_, memory_);
         if constexpr (A::reading)
             if (begun_ && (finished() || memory_.size() != current().end.memory))
                 throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
@@ -190,6 +196,11 @@ template <class P> class runner {
 
   private:
     const stage& current() const { return plan.stages[stage_]; }
+    /// The same, or the last one where all have ended.
+    const stage& running() const { return plan.stages[std::min(stage_, plan.stages.size() - 1)]; }
+    protocol::path_stress stresses() const {
+        return protocol::stress_of(sim.boundary, sim.loads(), running().lateral_y.has_value());
+    }
     /// What the audit cannot explain in a state just measured (J).
     double unexplained(const sample& s) const {
         return s.boundary_work + sim.totals().initial_energy - s.kinetic_energy - s.elastic_energy -
@@ -224,6 +235,8 @@ template <class P> class runner {
             reference_.clear();
             for (const auto& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
         }
+        start_volume_ = sim.boundary.volume();
+        start_sigma_3_ = stresses().sigma_3;
         sim.breakage_on = s.breakage;
         if (!s.keeps_friction) sim.set_friction(s.friction >= 0.0 ? s.friction : friction_);
         if (s.from_rest) protocol::stop_grains(sim);
@@ -329,20 +342,26 @@ template <class P> class runner {
     /// Refreshes what of the view costs next to nothing, beside a step.
     void glance() {
         const auto& b = sim.boundary;
-        view_.q = boundaries::deviator(b, sim.loads());
-        view_.p = b.lateral_stress(sim.loads()) + view_.q / 3.0;
+        const protocol::path_stress stress = stresses();
+        view_.sigma_1 = stress.sigma_1, view_.sigma_2 = stress.sigma_2, view_.sigma_3 = stress.sigma_3;
+        view_.q = stress.q, view_.p = stress.p;
         view_.axial_strain = axial_strain();
         view_.volumetric_strain = 1.0 - b.volume() / reference_volume_;
         view_.memory = memory_;
         view_.steps = stage_steps_;
         view_.time = stage_time_;
     }
+    /// Sets what drives that follow the specimen aim at.
+    void follow() {
+        if (!protocol::follows(current())) return;
+        glance();
+        protocol::follow(sim.drives, current(), view_, sim.boundary, start_volume_, sim.dt());
+    }
     /// Refreshes all of the view that conditions see, and the drives that depend on it. first: before the first step.
     void look(bool first = false) {
         const auto& b = sim.boundary;
         const stage& s = current();
         glance();
-        const double sigma_1 = boundaries::axial_stress(b, sim.loads());
         view_.strain_at_start = row_start_;
         view_.confining = plan.confining;
         view_.grain_diameter = plan.grain_diameter;
@@ -351,27 +370,35 @@ template <class P> class runner {
         contacts_ = c;
         if (!first) record_.largest_p = std::max(record_.largest_p, view_.p);
         view_.axial_error = s.axial.how == axis_drive::kind::stress
-                                ? std::abs(sigma_1 - s.axial.value) / std::max(s.axial.value, least_stress())
+                                ? std::abs(view_.sigma_1 - s.axial.value) / std::max(s.axial.value, least_stress())
                                 : 0.0;
         view_.confining_error = confining_error(s);
         view_.travel_left = std::max(speed_.way_left(s.axial, 0, b.height()), speed_.way_left(s.lateral, 1, radius()));
         sim.drives = speed_.look(s, felt(view_.p, c.coordination), first);
+        follow();
         if (speed_.yields(s)) protocol::give_way(sim, speed_, s);
         if (s.moves_grains && c.coordination < 1.0)
             protocol::move_free_grains(sim, speed_.rates()[0], speed_.rates()[1]);
     }
 
     double least_stress() const { return plan.least_stress * plan.confining; }
+    /// Lateral stress (Pa) that a stage aims at now; negative where it is not controlled.
+    double lateral_target(const stage& s) const {
+        return s.lateral.how == axis_drive::kind::stress   ? s.lateral.value
+               : s.lateral.how == axis_drive::kind::follow ? sim.drives.lateral.value
+                                                           : -1.0;
+    }
     /// Of the lateral stress in this stage, relative; 0 where it is not controlled.
     double confining_error(const stage& s) const {
-        if (s.lateral.how != axis_drive::kind::stress) return 0.0;
-        const double target = s.lateral.value, least = least_stress();
+        const double target = lateral_target(s), least = least_stress();
+        if (target < 0.0) return 0.0;
+        if (s.lateral_y) return std::abs(stresses().sigma_3 - target) / std::max(target, least);
         return target < least ? std::abs(sim.boundary.lateral_stress(sim.loads()) - target) / least
                               : sim.boundary.confining_error(sim.loads(), target);
     }
     void confining_now() {
         const stage& s = current();
-        if (s.lateral.how != axis_drive::kind::stress) return;
+        if (lateral_target(s) < 0.0) return;
         error_sum_ += confining_error(s);
         ++error_count_;
     }
@@ -380,7 +407,7 @@ template <class P> class runner {
         const axis_drive::kind k = current().axial.how;
         if (k == axis_drive::kind::inertial || k == axis_drive::kind::rate) {
             const double done = std::abs(axial_strain() - row_start_);
-            return done >= static_cast<double>(next_row_) * plan.row_strain;
+            return done >= static_cast<double>(next_row_) * row_strain();
         }
         return stage_steps_ % plan.row_steps == 0;
     }
@@ -396,9 +423,10 @@ template <class P> class runner {
         }
         error_sum_ = 0.0, error_count_ = 0;
         const double done = std::abs(axial_strain() - row_start_);
-        next_row_ = 1 + static_cast<std::int64_t>(done / plan.row_strain);
+        next_row_ = 1 + static_cast<std::int64_t>(done / row_strain());
         return row;
     }
+    double row_strain() const { return plan.row_strain / running().row_density; }
     void flush_events(observer& watch) {
         std::vector<fracture_event> events = sim.take_events();
         if (events.empty()) return;
@@ -416,6 +444,7 @@ template <class P> class runner {
     double stage_time_ = 0.0, stage_work_ = 0.0, stage_losses_ = 0.0, stage_residual_ = 0.0;
     std::int64_t tries_ = 0; ///< frictions tried in this stage
     double reference_height_ = 0.0, reference_volume_ = 0.0;
+    double start_volume_ = 0.0, start_sigma_3_ = 0.0; ///< at the start of the stage (m^3, Pa)
     std::vector<vec3> reference_;
     protocol::wall_speed speed_;
     protocol::standstill still_;

@@ -21,40 +21,17 @@
 
 namespace clast {
 
-/// What one axis of the specimen (axial: both platens; lateral: the wall) does during a stage.
-struct axis_drive {
-    enum class kind {
-        hold,     ///< stay
-        rate,     ///< strain rate `value` (1/s), compression positive
-        inertial, ///< strain rate at which the inertial number (paper Eq. 2) is |value|; negative: extension
-        stress,   ///< servo to the stress `value` (Pa)
-        reach     ///< move to the size `value` (m: height, or apothem) at the stage's packing rate, then hold
-    };
-    kind how = kind::hold;
-    double value = 0.0;
-    bool of_setup = false; ///< value counts in what the setup of the test says: its size, confining stress or I
-};
-
-namespace drive_by {
-inline axis_drive hold() { return {}; }
-inline axis_drive strain_rate(quantities::rate rate) { return {axis_drive::kind::rate, rate.si()}; }
-inline axis_drive inertial_number(double i) { return {axis_drive::kind::inertial, i}; }
-inline axis_drive stress(quantities::stress s) { return {axis_drive::kind::stress, s.si()}; }
-inline axis_drive size(quantities::length l) { return {axis_drive::kind::reach, l.si()}; }
-/// In parts of what the setup says (negative: extension): its inertial number, confining stress, height or radius.
-inline axis_drive inertial_number_of_setup(double part = 1.0) { return {axis_drive::kind::inertial, part, true}; }
-inline axis_drive stress_of_setup(double part = 1.0) { return {axis_drive::kind::stress, part, true}; }
-inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::reach, part, true}; }
-} // namespace drive_by
-
-/// What a condition may look at. Strains, q, p, steps and time are those of now; what costs more to find is that of the
-/// last look (test_plan::look_every), never by the clock.
+/// What a condition may look at. Strains, stresses, steps and time are those of now; what costs more to find is that of
+/// the last look (test_plan::look_every), never by the clock.
 struct stage_view {
     double axial_strain = 0.0;      ///< since the reference state
     double strain_at_start = 0.0;   ///< the same at the start of the stage
     double volumetric_strain = 0.0; ///< compression positive
-    double q = 0.0;                 ///< of the laboratory, boundaries/axial.hpp (Pa)
+    double q = 0.0;                 ///< of the laboratory, boundaries/axial.hpp (Pa); see protocol/path_stress.hpp
     double p = 0.0;                 ///< sigma_3 + q / 3 (Pa)
+    double sigma_1 = 0.0;           ///< axial (Pa)
+    double sigma_2 = 0.0;           ///< lateral: of the y walls of a box that is driven along three axes, else sigma_3
+    double sigma_3 = 0.0;           ///< lateral (Pa)
     double unbalanced_ratio = 1.0;
     double sphere_stress = 0.0;      ///< largest |p'| in the three measurement spheres (Pa)
     double mean_contact_force = 0.0; ///< N
@@ -75,9 +52,9 @@ struct stage_view {
     double grain_force() const { return confining * grain_diameter * grain_diameter; }
 
     template <class A> void archive(A& a) {
-        a(axial_strain, strain_at_start, volumetric_strain, q, p, unbalanced_ratio, sphere_stress, mean_contact_force,
-          coordination, kinetic_density, axial_error, confining_error, travel_left, steps, time, confining,
-          grain_diameter);
+        a(axial_strain, strain_at_start, volumetric_strain, q, p, sigma_1, sigma_2, sigma_3, unbalanced_ratio,
+          sphere_stress, mean_contact_force, coordination, kinetic_density, axial_error, confining_error, travel_left,
+          steps, time, confining, grain_diameter);
     }
 };
 
@@ -96,10 +73,48 @@ template <class Answer> class view_function {
             "keep numbers in stage_view::memory, and say how many in condition::memory");
     }
     Answer operator()(const stage_view& v) const { return of_(v); }
+    explicit operator bool() const { return static_cast<bool>(of_); }
 
   private:
     std::function<Answer(const stage_view&)> of_;
 };
+
+/// What one axis of the specimen (axial: both platens; lateral: the wall) does during a stage.
+struct axis_drive {
+    enum class kind {
+        hold,     ///< stay
+        rate,     ///< strain rate `value` (1/s), compression positive
+        inertial, ///< strain rate at which the inertial number (paper Eq. 2) is |value|; negative: extension
+        stress,   ///< servo to the stress `value` (Pa)
+        reach,    ///< move to the size `value` (m: height, or apothem) at the stage's packing rate, then hold
+        follow,   ///< servo to the stress that `target` says of the specimen (Pa), asked after every step
+        volume    ///< lateral: give way so that the specimen keeps the volume with which the stage began
+    };
+    kind how = kind::hold;
+    double value = 0.0;
+    bool of_setup = false; ///< value counts in what the setup of the test says: its size, confining stress or I
+    /// Of `follow`: a stress from strains and stresses of now, the rest of the view as of the last look; below 0 it
+    /// counts as 0.
+    view_function<double> target{};
+};
+
+namespace drive_by {
+inline axis_drive hold() { return {}; }
+inline axis_drive strain_rate(quantities::rate rate) { return {axis_drive::kind::rate, rate.si()}; }
+inline axis_drive inertial_number(double i) { return {axis_drive::kind::inertial, i}; }
+inline axis_drive stress(quantities::stress s) { return {axis_drive::kind::stress, s.si()}; }
+inline axis_drive size(quantities::length l) { return {axis_drive::kind::reach, l.si()}; }
+/// In parts of what the setup says (negative: extension): its inertial number, confining stress, height or radius.
+inline axis_drive inertial_number_of_setup(double part = 1.0) { return {axis_drive::kind::inertial, part, true}; }
+inline axis_drive stress_of_setup(double part = 1.0) { return {axis_drive::kind::stress, part, true}; }
+inline axis_drive size_of_setup(double part = 1.0) { return {axis_drive::kind::reach, part, true}; }
+/// A stress (Pa) that is a function of the specimen: of its other stresses, for a path in the plane of p and q.
+inline axis_drive stress_that(view_function<double> target) {
+    return {axis_drive::kind::follow, 0.0, false, std::move(target)};
+}
+/// Of the lateral wall: the volume stays what it was when the stage began, whatever the platens do.
+inline axis_drive constant_volume() { return {axis_drive::kind::volume}; }
+} // namespace drive_by
 
 /// When a stage ends, in words and as a function; `progress` in [0, 1] feeds the progress bar.
 struct condition {
@@ -199,6 +214,13 @@ inline condition deviator_above(quantities::stress q) {
     return {fmt::format("q >= {:g} kPa", 1e-3 * limit), [limit](const stage_view& v) { return v.q >= limit; },
             [limit](const stage_view& v) { return limit > 0.0 ? std::clamp(v.q / limit, 0.0, 1.0) : 0.0; }};
 }
+/// The axial stress is the given value or above it.
+inline condition axial_stress_above(quantities::stress sigma_1) {
+    const double limit = sigma_1.si();
+    return {fmt::format("sigma_1 >= {:g} kPa", 1e-3 * limit),
+            [limit](const stage_view& v) { return v.sigma_1 >= limit; },
+            [limit](const stage_view& v) { return limit > 0.0 ? std::clamp(v.sigma_1 / limit, 0.0, 1.0) : 0.0; }};
+}
 /// q has fallen from its largest value in this stage by a share of that, `drop` in (0, 1): the peak is past. A peak of
 /// less than a tenth of the confining stress of the setup is none. Steps scatter: a drop of a few per cent at least.
 inline condition peak_passed(quantities::ratio drop) {
@@ -291,6 +313,9 @@ struct stage {
     axis_drive axial{};
     axis_drive lateral{};
     condition end;
+    /// Of the walls normal to y, where the boundary can drive them apart (box): `stress` or `follow`. Without it they
+    /// do what `lateral` says.
+    std::optional<axis_drive> lateral_y{};
     std::int64_t most_steps = 2'000'000; ///< a stage that has not ended by then stops the run
     bool breakage = true;                ///< whether clumps may be replaced in this stage
     bool reference_here = false;         ///< strains, displacements and e0 count from the start of this stage
@@ -310,6 +335,7 @@ struct stage {
     /// Ends, short of `end` and saying so, where nothing changes any more while stresses and forces are within 1 %;
     /// where they are not, the run stops with an error.
     bool ends_at_standstill = false;
+    double row_density = 1.0;     ///< rows of a stage whose clock is strain over those that the plan asks for
     bool give_up_gently = false;  ///< having tried all, go on with the next stage instead of stopping
     bool skip_if_relaxed = false; ///< leave out where the stage before reached its end by itself
     std::string if_stuck = "Raise `most_steps`, or loosen the condition."; ///< advice where it does not end

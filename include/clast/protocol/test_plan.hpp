@@ -70,13 +70,40 @@ inline void check_direction(const stage& s, double start) {
                       "a drive towards that strain (shortening is positive)",
                       "Change the sign of the rate, or of the strain.");
 }
-/// The plan with drives in SI units alone. Throws input_error where it has no stage.
-inline test_plan completed(test_plan plan) {
+/// Throws input_error where an axis of a stage is driven by what it cannot be. three_axes: whether the boundary can
+/// drive the walls normal to y apart.
+inline void check_drives(const stage& s, bool three_axes) {
+    using kind = axis_drive::kind;
+    const auto refuse = [&s](const char* axis, const char* how, const char* allowed, const char* way_out) {
+        throw input_error(fmt::format("stage '{}', {}", s.name, axis), how, allowed, way_out);
+    };
+    const auto aims = [&](const char* axis, const axis_drive& a) {
+        if (a.how == kind::follow && !a.target)
+            refuse(axis, "follows nothing", "a function of the specimen", "Use drive_by::stress_that(function).");
+    };
+    aims("axial", s.axial), aims("lateral", s.lateral);
+    if (s.axial.how == kind::volume)
+        refuse("axial", "constant volume", "the lateral wall", "Give `lateral` drive_by::constant_volume().");
+    if (!s.lateral_y) return;
+    aims("lateral_y", *s.lateral_y);
+    if (!three_axes)
+        refuse("lateral_y", "a drive of its own", "none, at this boundary",
+               "Take boundaries::box for three driven axes.");
+    if (s.lateral_y->how != kind::stress && s.lateral_y->how != kind::follow)
+        refuse("lateral_y", "another drive", "a stress", "Use drive_by::stress or drive_by::stress_that.");
+    if (s.lateral.how != kind::stress && s.lateral.how != kind::follow)
+        refuse("lateral", "another drive beside lateral_y", "a stress",
+               "Use drive_by::stress or drive_by::stress_that.");
+}
+/// The plan with drives in SI units alone. Throws input_error where it has no stage, or drives that cannot be.
+inline test_plan completed(test_plan plan, bool three_axes) {
     if (plan.stages.empty())
         throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
     for (stage& s : plan.stages) {
         take_from_setup(s.axial, plan, plan.height);
         take_from_setup(s.lateral, plan, plan.radius);
+        if (s.lateral_y) take_from_setup(*s.lateral_y, plan, plan.radius);
+        check_drives(s, three_axes);
     }
     return plan;
 }

@@ -91,6 +91,7 @@ class wall_speed {
         boundaries::drives d;
         d.platens = one(s.axial, s, now, 0, 0.5, servo);
         d.lateral = one(s.lateral, s, now, 1, 1.0, servo);
+        if (s.lateral_y) d.lateral_y = one(*s.lateral_y, s, now, 1, 1.0, servo);
         return d;
     }
     /// The same after a step, for walls that give way: all axes that still have a way to go at one rate, so that a
@@ -167,6 +168,12 @@ class wall_speed {
             break;
         case axis_drive::kind::stress:
             d.how = mode::servo, d.value = a.value;
+            break;
+        case axis_drive::kind::follow: // what it aims at is set after every step: follow.hpp
+            d.how = mode::servo;
+            break;
+        case axis_drive::kind::volume:
+            d.how = mode::volume;
             break;
         case axis_drive::kind::reach:
             reach(d, s, now, axis, share, size, a.value);
