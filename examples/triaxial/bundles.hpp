@@ -3,6 +3,7 @@
 // data. Each is instantiated in its own file (bundle_*.cpp), so that they compile side by side.
 #pragma once
 
+#include <clast/boundaries/box.hpp>
 #include <clast/boundaries/rigid_cylinder.hpp>
 #include <clast/boundaries/ring_walls.hpp>
 #include <clast/boundaries/solid_strips.hpp>
@@ -36,6 +37,8 @@ using solid_modified = modified<clast::boundaries::solid_strips>;
 using solid_unbreakable = unbreakable<clast::boundaries::solid_strips>;
 using rigid_modified = modified<clast::boundaries::rigid_cylinder>;
 using rigid_unbreakable = unbreakable<clast::boundaries::rigid_cylinder>;
+using box_modified = modified<clast::boundaries::box>;
+using box_unbreakable = unbreakable<clast::boundaries::box>;
 
 } // namespace triaxial
 
@@ -47,3 +50,5 @@ extern template class clast::triaxial_test<triaxial::rings_modified>;
 extern template class clast::triaxial_test<triaxial::rings_unbreakable>;
 extern template class clast::triaxial_test<triaxial::rigid_modified>;
 extern template class clast::triaxial_test<triaxial::rigid_unbreakable>;
+extern template class clast::triaxial_test<triaxial::box_modified>;
+extern template class clast::triaxial_test<triaxial::box_unbreakable>;

@@ -77,6 +77,11 @@ refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --c
 refuse 2 "--replacement: 'daughters'" "modified, none" -- --replacement daughters
 refuse 2 "--birth: 'hot'" "warm, zero" -- --birth hot
 refuse 2 "--protocol: 'oedometric'" "triaxial, isotropic, unload" -- --protocol oedometric
+refuse 2 "--cycles: '4'" "only with --protocol cyclic" -- --cycles 4
+refuse 2 "--membrane: 'tiles'" "box with --protocol true_triaxial" -- --protocol true_triaxial --membrane tiles
+refuse 2 "--b: '2'" "0 to 1" -- --protocol true_triaxial --b 2
+refuse 2 "--cycle-low-deviator" "below --cycle-deviator" -- --protocol cyclic --cycle-deviator 1kPa
+refuse 2 "--until-peak: '10%'" "only with" -- --protocol isotropic --until-peak 10%
 refuse 2 "--bond-stiffness: '9.6e8'" "N/m, kN/m, MN/m" "Pa/m" -- --bond-stiffness 9.6e8
 refuse 2 "--bond-stiffness: '-1N/m'" "positive" -- --bond-stiffness=-1N/m
 refuse 2 "--inertial-number: '1'" "up to 0.1" -- --inertial-number 1

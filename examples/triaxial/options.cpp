@@ -38,7 +38,8 @@ struct raw {
     std::string shape, grain_size, stiffness, contact_force, grading, packing, from, porosity, strength, membrane,
         rings, tiles, confining, scale, strain, inertial_number, criterion, weibull, replacement, birth, bond_stiffness,
         friction, platen_friction, membrane_friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
-        stop_after, protocol, preset;
+        stop_after, protocol, preset, cycles, cycle_deviator, cycle_low_deviator, cycle_strain, axial_stress, b,
+        until_peak;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -128,17 +129,33 @@ void declare(CLI::App& app, raw& r) {
         "with bonds in the proportion of the weak rock",
         "weak");
     add("--membrane", r.membrane, "NAME",
-        "lateral boundary: tiles (each on its own), rings, solid (strips that move as one), rigid (a round cylinder)",
-        "tiles");
+        "lateral boundary: tiles (each on its own), rings, solid (strips that move as one),\nrigid (a round cylinder), "
+        "box (around a cube, 30 cm at scale 1)",
+        "tiles; solid for oedometer,\nbox for true_triaxial");
     add("--rings", r.rings, "N", "rings of tiles over the height (V_sec)", "36 * scale");
     add("--tiles-per-ring", r.tiles, "N", "tiles, or strips, around the specimen (H_part)", "20 * scale, at least 10");
     add("--confining", r.confining, "STRESS", "confining stress in Pa, kPa, MPa or GPa", "2MPa");
     add("--scale", r.scale, "S", "size of the specimen: 1 is 30 cm x 70 cm; grains stay 2 cm", "0.6");
-    add("--strain", r.strain, "STRAIN", "axial strain at the end of shear, 25% or 0.25", "25%");
+    add("--strain", r.strain, "STRAIN", "axial strain at the end of shear, 25% or 0.25; in extension its amount",
+        "25%; extension 10%,\noedometer 50%");
     add("--protocol", r.protocol, "NAME",
-        "triaxial, isotropic (no shear), unload (shear, then back to q = 0),\nprepare (no consolidation: a specimen "
-        "for --from)",
+        "triaxial, isotropic (no shear), unload (shear, then back to q = 0),\nextension (axial stress falls, cell "
+        "pressure "
+        "stays), cyclic (unloads and reloads),\nconstant_p (mean stress stays), undrained (volume stays; gives pore "
+        "pressure),\noedometer (no lateral strain; gives K0), true_triaxial (b stays; a box),\nprepare (no "
+        "consolidation: a specimen for --from)",
         "triaxial");
+    add("--cycles", r.cycles, "N", "cyclic: number of cycles, before shear goes on to --strain", "3");
+    add("--cycle-deviator", r.cycle_deviator, "STRESS", "cyclic: q at which loading turns round",
+        "half of --confining");
+    add("--cycle-low-deviator", r.cycle_low_deviator, "STRESS", "cyclic: q at which unloading turns round",
+        "5 % of --confining");
+    add("--cycle-strain", r.cycle_strain, "STRAIN", "cyclic: loading turns round each time that much further, at any q",
+        "by q");
+    add("--axial-stress", r.axial_stress, "STRESS", "oedometer: sigma_1 at its end", "as --confining");
+    add("--b", r.b, "B", "true_triaxial: (sigma_2 - sigma_3)/(sigma_1 - sigma_3), 0 to 1", "0.5");
+    add("--until-peak", r.until_peak, "DROP", "ends shear also where q has fallen by this share of its peak, as 10%",
+        "only at --strain");
     add("--inertial-number", r.inertial_number, "I", "limit of the inertial number in shear", "1e-4");
     add("--stiffness", r.stiffness, "NAME",
         "what 5.8e6 N/m of Table 1 is that of: contact (of two pebbles), series (of a pebble,\nhalf of it between two)",
@@ -217,7 +234,7 @@ bool allowed_with_resume(const std::string& name) {
 }
 
 void read_tiles(options& o, const raw& r) {
-    const bool solid = o.membrane == "solid" || o.membrane == "rigid";
+    const bool solid = o.membrane == "solid" || o.membrane == "rigid" || o.membrane == "box";
     const clast::grain_sizes grains = sizes_of(o);
     // about as high as the paper's tiles, and none lower than a pebble
     const int high_enough = static_cast<int>(o.height() / (2.0 * grains.largest_radius) * (1.0 + 1e-9));
@@ -274,6 +291,63 @@ void read_bond_stiffness(options& o, const std::string& text) {
                                                                                 : bond_reading::per_area;
 }
 
+bool shears(const options& o) { return o.protocol != "isotropic" && o.protocol != "prepare"; }
+
+/// What depends on the protocol: wall and strain where they are not given, and its own options. Throws input_error for
+/// an option of another protocol.
+void read_path(options& o, const raw& r) {
+    const bool cyclic = o.protocol == "cyclic", oedometer = o.protocol == "oedometer",
+               three = o.protocol == "true_triaxial";
+    if (r.membrane.empty() && (oedometer || three)) o.membrane = oedometer ? "solid" : "box"; // the polygon of tiles
+    if (three && o.membrane != "box")
+        throw input_error("--membrane", o.membrane, "box with --protocol true_triaxial",
+                          "Leave --membrane out: a wall around the axis has one lateral stress.");
+    if (r.strain.empty() && o.protocol == "extension") o.strain = 0.1;
+    if (r.strain.empty() && oedometer) o.strain = 0.5;
+    const auto own = [&](const std::string& text, const char* option, bool mine, const char* of) {
+        if (!text.empty() && !mine)
+            throw input_error(option, text, fmt::format("only with --protocol {}", of),
+                              fmt::format("This one is {}: leave {} out.", o.protocol, option));
+        return !text.empty();
+    };
+    path_options& p = o.path;
+    const auto stress = [](const std::string& text, const char* option, const char* way_out) {
+        return checked<quantities::stress>(text, option, 0.0, 1e10, false, "more than 0", way_out);
+    };
+    if (own(r.cycles, "--cycles", cyclic, "cyclic"))
+        p.cycles = whole_number(r.cycles, "--cycles", 1, 10000, "3 is the default.");
+    if (own(r.cycle_deviator, "--cycle-deviator", cyclic, "cyclic"))
+        p.cycle_high = stress(r.cycle_deviator, "--cycle-deviator", "Half of the confining stress is the default.");
+    if (own(r.cycle_low_deviator, "--cycle-low-deviator", cyclic, "cyclic"))
+        p.cycle_low =
+            stress(r.cycle_low_deviator, "--cycle-low-deviator", "5 % of the confining stress is the default.");
+    if (own(r.cycle_strain, "--cycle-strain", cyclic, "cyclic")) {
+        p.cycle_strain = checked<quantities::ratio>(r.cycle_strain, "--cycle-strain", 0.0, o.strain, false,
+                                                    "more than 0, up to --strain", "1% is usual.");
+        if (!r.cycle_deviator.empty())
+            throw input_error("--cycle-strain", r.cycle_strain, "without --cycle-deviator",
+                              "Cycles turn round at a q or at strains: give one of the two.");
+    }
+    if (cyclic) {
+        if (p.cycle_high == 0.0 && p.cycle_strain == 0.0) p.cycle_high = 0.5 * o.confining;
+        if (p.cycle_low == 0.0) p.cycle_low = 0.05 * o.confining;
+        if (p.cycle_strain == 0.0 && p.cycle_high <= p.cycle_low)
+            throw input_error("--cycle-low-deviator", stress_text(p.cycle_low),
+                              "below --cycle-deviator, " + stress_text(p.cycle_high), "Exchange them.");
+    }
+    if (own(r.axial_stress, "--axial-stress", oedometer, "oedometer"))
+        p.axial_stress = checked<quantities::stress>(r.axial_stress, "--axial-stress", 1e3, 1e8, true, "1kPa to 100MPa",
+                                                     "--confining is the default.");
+    if (oedometer && p.axial_stress == 0.0) p.axial_stress = o.confining;
+    if (own(r.b, "--b", three, "true_triaxial"))
+        p.b = checked<quantities::ratio>(r.b, "--b", 0.0, 1.0, true, "0 to 1",
+                                         "0 is triaxial compression, 1 triaxial extension.");
+    const bool monotonic = shears(o) && !cyclic && !oedometer && o.protocol != "extension";
+    if (own(r.until_peak, "--until-peak", monotonic, "triaxial, unload, constant_p, undrained, true_triaxial"))
+        p.peak_drop = checked<quantities::ratio>(r.until_peak, "--until-peak", 0.0, 1.0, false, "more than 0, up to 1",
+                                                 "q scatters from step to step: 10% is usual.");
+}
+
 void read_run(options& o, const raw& r) {
     if (!r.threads.empty())
         o.threads = whole_number(r.threads, "--threads", 0, 1024, "0 takes as many as the machine has.");
@@ -321,8 +395,10 @@ options checked_options(const raw& r) {
     choose(o.stiffness, r.stiffness, "--stiffness", {"contact", "series"});
     choose(o.contact_force, r.contact_force, "--contact-force", {"resultant", "single"});
     read_strength(o, r.strength);
-    choose(o.membrane, r.membrane, "--membrane", {"tiles", "rings", "solid", "rigid"});
-    choose(o.protocol, r.protocol, "--protocol", {"triaxial", "isotropic", "unload", "prepare"});
+    choose(o.membrane, r.membrane, "--membrane", {"tiles", "rings", "solid", "rigid", "box"});
+    choose(o.protocol, r.protocol, "--protocol",
+           {"triaxial", "isotropic", "unload", "extension", "cyclic", "constant_p", "undrained", "oedometer",
+            "true_triaxial", "prepare"});
     choose(o.criterion, r.criterion, "--criterion",
            {"nominal_force", "hertz_literal", "hertz_calibrated", "octahedral", "mean", "major_principal", "none"});
     choose(o.replacement, r.replacement, "--replacement", {"modified", "none"});
@@ -369,13 +445,17 @@ options checked_options(const raw& r) {
     if (!r.snapshots.empty()) o.snapshots = whole_number(r.snapshots, "--snapshots", 0, 100000, "10 is usual.");
     if (!r.rows.empty()) o.rows = whole_number(r.rows, "--rows", 1, 10000000, "500 is usual.");
     read_bond_stiffness(o, r.bond_stiffness);
+    read_path(o, r);
     read_tiles(o, r);
     check_grains(o);
     read_run(o, r);
     o.overwrite = r.overwrite;
-    o.out = !r.out.empty() ? fs::path(r.out)
-                           : fs::path("results") / fmt::format("{}-{}-{}-{}", grains_title(o), o.membrane,
-                                                               strength_text(o), stress_text(o.confining));
+    const bool usual =
+        o.protocol == "triaxial" || o.protocol == "isotropic" || o.protocol == "unload" || o.protocol == "prepare";
+    o.out = !r.out.empty()
+                ? fs::path(r.out)
+                : fs::path("results") / fmt::format("{}-{}-{}-{}{}", grains_title(o), o.membrane, strength_text(o),
+                                                    stress_text(o.confining), usual ? "" : "-" + o.protocol);
     return o;
 }
 
@@ -432,6 +512,14 @@ void take_from(raw& r) {
                               fmt::format("Leave it out: '{}' was prepared with it.", r.from));
         *mine = theirs;
     }
+    const auto cube = [](const std::vector<std::string>& arguments) {
+        return std::find(arguments.begin(), arguments.end(), "--membrane=box") != arguments.end();
+    };
+    const bool mine = r.membrane == "box" || (r.membrane.empty() && r.protocol == "true_triaxial");
+    if (cube(stored) != mine)
+        throw input_error("--membrane", r.membrane.empty() ? mine ? "box" : "tiles" : r.membrane,
+                          mine ? "a wall around a cylinder" : "box, around the cube that was prepared",
+                          mine ? "Prepare the cube with --membrane box." : "Say --membrane box.");
     r.from = (folder / prepared_file).string();
 }
 
@@ -459,6 +547,29 @@ options resumed_options(const CLI::App& app, const raw& r) {
     o.overwrite = false;
     read_run(o, r);
     return o;
+}
+
+/// Own options of the protocol, by the names of the command line.
+struct path_line {
+    const char* name;
+    double value;
+    const char* unit;
+};
+std::vector<path_line> path_lines(const options& o) {
+    std::vector<path_line> lines;
+    const path_options& p = o.path;
+    if (o.protocol == "cyclic") {
+        lines.push_back({"cycles", static_cast<double>(p.cycles), ""});
+        if (p.cycle_strain > 0.0)
+            lines.push_back({"cycle-strain", p.cycle_strain, ""});
+        else
+            lines.push_back({"cycle-deviator", p.cycle_high, "Pa"});
+        lines.push_back({"cycle-low-deviator", p.cycle_low, "Pa"});
+    }
+    if (o.protocol == "oedometer") lines.push_back({"axial-stress", p.axial_stress, "Pa"});
+    if (o.protocol == "true_triaxial") lines.push_back({"b", p.b, ""});
+    if (p.peak_drop > 0.0) lines.push_back({"until-peak", p.peak_drop, ""});
+    return lines;
 }
 
 } // namespace
@@ -538,6 +649,7 @@ std::string physics_text(const options& o) {
     line("scale", o.scale);
     line("axial strain", o.strain);
     line("protocol", o.protocol);
+    for (const auto& [name, value, unit] : path_lines(o)) line(name, value, unit);
     line("inertial number", o.inertial_number);
     line("stiffness", o.stiffness);
     line("friction", o.friction);
@@ -576,6 +688,7 @@ std::vector<std::string> to_arguments(const options& o) {
     add("scale", o.scale);
     add("strain", o.strain);
     add("protocol", o.protocol);
+    for (const auto& [name, value, unit] : path_lines(o)) add(name, value, unit);
     add("inertial-number", o.inertial_number);
     add("stiffness", o.stiffness);
     add("friction", o.friction);

@@ -32,6 +32,17 @@ inline constexpr double full_height = 0.70;    ///< of the specimen at scale 1 (
 inline constexpr double grain_diameter = 0.02; ///< nominal, at every scale, without a grading (m)
 inline constexpr int fewest_tiles = 6;         ///< in a ring: below, the polygon no longer resembles a cylinder
 
+/// What some protocols ask besides; 0: not given.
+struct path_options {
+    int cycles = 3;            ///< cyclic
+    double cycle_high = 0.0;   ///< cyclic: q at which loading turns round (Pa)
+    double cycle_low = 0.0;    ///< cyclic: q at which unloading turns round (Pa)
+    double cycle_strain = 0.0; ///< cyclic: axial strain between cycles, in the place of cycle_high
+    double axial_stress = 0.0; ///< oedometer: sigma_1 at its end (Pa)
+    double b = 0.5;            ///< true_triaxial: (sigma_2 - sigma_3) / (sigma_1 - sigma_3)
+    double peak_drop = 0.0;    ///< share of its peak by which q has fallen where a shear ends
+};
+
 /// Everything that can be chosen. Values are checked; SI units.
 struct options {
     // what is tested
@@ -43,13 +54,14 @@ struct options {
     double porosity = 0.58;   ///< as prepared
     std::vector<std::uint64_t> checksums{}; ///< of the files above (input_files)
     std::string strength = "weak";          ///< name of a strength class, or a stress in Pa
-    std::string membrane = "tiles";         ///< "solid" or "tiles"
+    std::string membrane = "tiles";         ///< "tiles", "rings", "solid", "rigid" or "box"
     int rings = 14;                         ///< V_sec; 1 for solid
     int tiles_per_ring = 10;                ///< H_part
     double confining = 2e6;                 ///< (Pa)
     double scale = 0.6;                     ///< 1 is 30 x 70 cm
     double strain = 0.25;                   ///< axial strain at the end of shear
-    std::string protocol = "triaxial";      ///< "triaxial", "isotropic", "unload" or "prepare"
+    std::string protocol = "triaxial";      ///< one of protocol_names
+    path_options path{};                    ///< further choices of some protocols
     double inertial_number = 1e-4;          ///< limit in shear
     std::string stiffness = "contact";      ///< what 5.8e6 N/m of Table 1 is that of: "contact" or "series" (a piece)
     double friction = 0.3;                  ///< between pebbles
@@ -80,7 +92,8 @@ struct options {
     std::int64_t stop_after_steps = 0; ///< stop with a checkpoint after so many steps, 0: do not (tests)
 
     [[nodiscard]] double diameter() const { return full_diameter * scale; } ///< of the specimen (m)
-    [[nodiscard]] double height() const { return full_height * scale; }     ///< of the specimen (m)
+    /// Of the specimen (m): a cylinder, or a cube.
+    [[nodiscard]] double height() const { return (membrane == "box" ? full_diameter : full_height) * scale; }
     [[nodiscard]] strength_class rock() const; ///< the strength class by its name, or of its stress
     [[nodiscard]] bool breakable() const { return criterion != "none" && replacement != "none"; }
 };

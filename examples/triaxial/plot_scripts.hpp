@@ -46,7 +46,7 @@ inline constexpr curve_figure stress_figure{
     "stress", "Deviatoric stress against axial strain, from series.csv",
     R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "deviatoric stress q = σ_1 − σ_3  (MPa)"
-    set xrange [0:*]
+    set xrange [@EMIN@:@EMAX@]
     set yrange [@QMIN@:@QTOP@]
     set label 1 sprintf("peak %.2f MPa at %.1f %%", @QPEAK@, @EPEAK@) at @EPEAK@, @QPEAK@ point pointtype 7 pointsize 0.6 linecolor rgb red offset character @LABEL_X@, 0.9 @LABEL_SIDE@ textcolor rgb red front noenhanced
     plot "@SERIES@" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("q_Pa")/1e6) with lines linewidth 1.8 linecolor rgb blue notitle
@@ -56,7 +56,7 @@ inline constexpr curve_figure volume_figure{
     "volume", "Volumetric strain against axial strain, dilation positive (series.csv has compression positive)",
     R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "volumetric strain, dilation positive  (%)"
-    set xrange [0:*]
+    set xrange [@EMIN@:@EMAX@]
     set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead linecolor rgb grey linewidth 0.9 dashtype 3 back
     set label 1 "dilation" at graph 0.985, first 0 right offset 0, 0.7 textcolor rgb grey font ",11"
     set label 2 "contraction" at graph 0.985, first 0 right offset 0, -0.7 textcolor rgb grey font ",11"
@@ -68,7 +68,7 @@ inline constexpr curve_figure fractures_figure{
     "fractures", "Broken bonds and replaced clumps, cumulative, from series.csv",
     R"gp(    set xlabel "axial strain ε_a  (%)"
     set ylabel "count since the start of the test"
-    set xrange [0:*]
+    set xrange [@EMIN@:@EMAX@]
     set yrange [0:@TOP@]
     plot "@SERIES@" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_tension")+column("broken_shear")) with steps linewidth 2.2 linecolor rgb dark title "all broken bonds", \
          "" using (wanted(strcol("stage")) ? 100*column("axial_strain") : NaN):(column("broken_tension")) with steps linewidth 1.6 linecolor rgb blue title "in tension", \

@@ -514,21 +514,24 @@ void draw_curves(plot_folder& plots, const plot_request& request, const std::vec
         if (is_one_of(r.stage, request.loading) && r.p >= 1e3) ++loaded;
         if (!is_one_of(r.stage, request.stages)) continue;
         ++sheared;
-        if (!peak || r.q > peak->q) peak = &r;
+        const double sign = r.stage == "extend" ? -1.0 : 1.0;
+        if (!peak || sign * r.q > sign * peak->q) peak = &r;
         const double dilation = -100.0 * r.volumetric_strain;
         q_min = std::min(q_min, r.q), v_min = std::min(v_min, dilation), v_max = std::max(v_max, dilation);
-        strain = std::max(strain, r.axial_strain);
+        if (std::abs(r.axial_strain) > std::abs(strain)) strain = r.axial_strain;
         most = std::max({most, r.broken_tension + r.broken_shear, r.replaced});
     }
     if (loaded >= 2) plots.draw("compression", script_of(compression_figure, series, request.loading));
-    if (sheared < 2 || strain <= 0.0) return;
+    if (sheared < 2 || strain == 0.0) return;
     const double pad = std::max(0.12 * (v_max - v_min), 0.1);
-    const bool right_half = peak->axial_strain > 0.6 * strain;
+    const bool extended = strain < 0.0, right_half = extended != (peak->axial_strain / strain > 0.6);
     for (const curve_figure& f : {stress_figure, volume_figure, fractures_figure})
         plots.draw(std::string(f.name),
                    fill_in(script_of(f, series, request.stages),
                            {{"QPEAK", fmt::format("{:.8g}", 1e-6 * peak->q)},
                             {"EPEAK", fmt::format("{:.8g}", 100.0 * peak->axial_strain)},
+                            {"EMIN", extended ? "*" : "0"},
+                            {"EMAX", extended ? "0" : "*"},
                             {"QMIN", q_min < -1e3 ? "*" : "0"},
                             {"QTOP", peak->q > 0.0 ? fmt::format("{:.6g}", 1.15e-6 * peak->q) : "*"},
                             {"VMIN", fmt::format("{:.6g}", v_min - pad)},

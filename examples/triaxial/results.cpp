@@ -113,23 +113,34 @@ summary_numbers summarise(std::span<const sample> rows) {
     const sample &first = *shear.front(), &end = *shear.back();
     n.e_start = first.void_ratio;
     n.q_end = end.q;
+    n.pore_pressure_end = end.pore_pressure;
+    if (end.stage == "load") {
+        double sum = 0.0;
+        int count = 0;
+        for (const sample* s : shear)
+            if (s->sigma_1 >= 0.8 * end.sigma_1) sum += s->sigma_3 / s->sigma_1, ++count;
+        n.k0 = sum / count;
+    }
     n.axial_strain_end = end.axial_strain;
     n.volumetric_strain_end = end.volumetric_strain;
     n.replaced_in_shear = end.replaced - first.replaced;
     n.broken_in_shear = end.broken_tension + end.broken_shear - first.broken_tension - first.broken_shear;
     n.peak_q = {first.q, first.axial_strain, first.p};
     n.e_min = {first.void_ratio, first.axial_strain, first.p};
+    const double sign = first.stage == "extend" ? -1.0 : 1.0; // of a strength
     double error_sum = 0.0, late_q = 0.0, late_contacts = 0.0, largest_strain = 0.0;
-    for (const sample* s : shear) largest_strain = std::max(largest_strain, s->axial_strain);
+    for (const sample* s : shear) largest_strain = std::max(largest_strain, std::abs(s->axial_strain));
     for (const sample* s : shear) {
-        if (s->q > n.peak_q.value) n.peak_q = {s->q, s->axial_strain, s->p};
+        if (sign * s->q > sign * n.peak_q.value) n.peak_q = {s->q, s->axial_strain, s->p};
+        if (s->pore_pressure > n.peak_pore_pressure.value)
+            n.peak_pore_pressure = {s->pore_pressure, s->axial_strain, s->p};
         if (s->void_ratio < n.e_min.value) n.e_min = {s->void_ratio, s->axial_strain, s->p};
         n.max_energy_residual = std::max(n.max_energy_residual, std::abs(s->energy_residual));
         n.max_inertial_number = std::max(n.max_inertial_number, s->inertial_number);
-        n.peak_q_contacts = std::max(n.peak_q_contacts, s->q_contacts);
-        if (s->q > 0.1 * s->sigma_3)
+        if (sign * s->q_contacts > sign * n.peak_q_contacts) n.peak_q_contacts = s->q_contacts;
+        if (std::abs(s->q) > 0.1 * s->sigma_3)
             n.max_q_mismatch = std::max(n.max_q_mismatch, std::abs(s->q_contacts / s->q - 1.0));
-        if (s->stage == shear_stages.front() && s->axial_strain >= 0.8 * largest_strain)
+        if (s->stage != "unload" && std::abs(s->axial_strain) >= 0.8 * largest_strain)
             late_q += s->q, late_contacts += s->q_contacts;
         if (s == shear.front()) continue; // its error still belongs to the stage before
         error_sum += s->confining_error;
@@ -150,7 +161,8 @@ summary_numbers summarise(std::span<const sample> rows) {
         for (std::size_t k = i; k-- > 0 && near(k);) phi += shear[k]->phi_mob_deg, p += shear[k]->p, count += 1.0;
         for (std::size_t k = i + 1; k < shear.size() && near(k); ++k)
             phi += shear[k]->phi_mob_deg, p += shear[k]->p, count += 1.0;
-        if (!any || phi / count > n.phi_max.value) n.phi_max = {phi / count, shear[i]->axial_strain, p / count};
+        if (!any || sign * phi / count > sign * n.phi_max.value)
+            n.phi_max = {phi / count, shear[i]->axial_strain, p / count};
         any = true;
     }
     return n;
@@ -323,6 +335,11 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
                       {"max_inertial_number", n.max_inertial_number},
                       {"replaced", n.replaced_in_shear},
                       {"broken_bonds", n.broken_in_shear}};
+    if (options_.protocol == "undrained")
+        j["shear"].update({{"peak_pore_pressure_Pa", n.peak_pore_pressure.value},
+                           {"peak_pore_pressure_axial_strain", n.peak_pore_pressure.axial_strain},
+                           {"pore_pressure_end_Pa", n.pore_pressure_end}});
+    if (n.k0 > 0.0) j["shear"]["K0_last_fifth_of_stress"] = n.k0;
     j["breakage"] = {{"replaced", n.replaced},
                      {"broken_tension", n.broken_tension},
                      {"broken_shear", n.broken_shear},
@@ -373,6 +390,7 @@ void result_folder::finish(const run_facts& facts) {
         request.events = folder_ / "events.csv";
         request.stages = shear_stages;
         request.loading = loading_stages;
+        request.loading.emplace_back("load"); // of an oedometer
         const auto view = [this](const char* name) {
             const fs::path path = folder_ / "plots" / "data" / name;
             stored_view v;
@@ -399,6 +417,11 @@ void result_folder::finish(const run_facts& facts) {
                    0.0 - 100 * n.volumetric_strain_end);
         fmt::print("  smallest void ratio {:8.3f} ({:.3f} of that at the start of shear)\n", n.e_min.value,
                    n.e_start > 0 ? n.e_min.value / n.e_start : 0.0);
+        if (options_.protocol == "undrained")
+            fmt::print("  pore pressure       {:8.3f} MPa largest, {:.3f} MPa at the end\n",
+                       n.peak_pore_pressure.value / 1e6, n.pore_pressure_end / 1e6);
+        if (n.k0 > 0.0)
+            fmt::print("  K0                  {:8.3f} = sigma_3/sigma_1, in the last fifth of the stress\n", n.k0);
     } else if (!rows_.empty()) {
         fmt::print("  mean stress p'      {:8.3f} MPa, void ratio {:.3f}\n", rows_.back().p / 1e6,
                    rows_.back().void_ratio);

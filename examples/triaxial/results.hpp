@@ -58,11 +58,11 @@ struct stage_time {
     double wall_time = 0.0; ///< (s)
 };
 
-/// Numbers of the shear stages ("shear", "unload"), as the paper's figures quote them.
+/// Numbers of the shear stages (shear_stages), as the paper's figures quote them.
 struct summary_numbers {
     std::vector<stage_time> stages;
     bool sheared = false;
-    extreme peak_q;               ///< of the laboratory (Pa), largest row
+    extreme peak_q;               ///< of the laboratory (Pa), largest row; in extension the smallest
     double peak_q_contacts = 0.0; ///< the same from contacts (Pa)
     double contacts_over_q = 0.0; ///< mean of q from contacts over mean of q, in the last fifth of the strain
     double max_q_mismatch = 0.0;  ///< |q - q from contacts| / q, largest where q exceeds a tenth of sigma_3
@@ -70,6 +70,9 @@ struct summary_numbers {
     extreme e_min;                ///< smallest void ratio (Fig. 15)
     double e_start = 0.0;         ///< void ratio at the start of shear
     double q_end = 0.0;           ///< (Pa)
+    extreme peak_pore_pressure;   ///< largest (Pa), 0 where the test is drained
+    double pore_pressure_end = 0.0; ///< (Pa)
+    double k0 = 0.0;                ///< sigma_3 / sigma_1, mean over the last fifth of sigma_1 in an oedometer; 0: none
     double volumetric_strain_end = 0.0; ///< compression positive
     double axial_strain_end = 0.0;
     double mean_confining_error = 0.0;
@@ -98,8 +101,9 @@ struct preparation_numbers {
 };
 preparation_numbers preparation_of(std::span<const clast::stage_record> stages, double confining);
 
-/// Names of the stages that count as shear, and as compression, in figures and summary.
-inline const std::vector<std::string> shear_stages{"shear", "unload"};
+/// Names of the stages that count as shear (the path of a test, drawn against axial strain), and as compression, in
+/// figures and summary.
+inline const std::vector<std::string> shear_stages{"shear", "unload", "reload", "extend", "load"};
 inline const std::vector<std::string> loading_stages{"consolidate"};
 
 /// Owns the files of a run. A row or event is in its file when the call returns. Throws clast::input_error for a folder

@@ -30,4 +30,17 @@ cmp whole/events.csv pieces/events.csv
 checksum() { grep final_state_checksum "$1/summary.json"; }
 test -n "$(checksum whole)"
 test "$(checksum whole)" = "$(checksum pieces)" || { checksum whole; checksum pieces; exit 1; }
-echo "the same bits in one piece and in six"
+
+# a path whose drives follow the specimen: stopped in the middle of it
+for path in "undrained --strain 1%" "constant_p --strain 1%" "cyclic --strain 2% --cycles 2 --cycle-strain 0.5%"; do
+    name=${path%% *}
+    # shellcheck disable=SC2086
+    path_arguments=(--protocol $path --scale 0.2 --confining 1MPa --inertial-number 1e-3 --replacement none --snapshots 0 --no-plots --quiet)
+    "$program" "${path_arguments[@]}" --threads 1 --out "$name" >"$name.log"
+    steps() { tail -n 1 "$name/series.csv" | cut -d, -f "$(head -n 1 "$name/series.csv" | tr , '\n' | grep -n '^steps$' | cut -d: -f 1)"; }
+    first() { grep -m 1 ',shear,' "$name/series.csv" | cut -d, -f "$(head -n 1 "$name/series.csv" | tr , '\n' | grep -n '^steps$' | cut -d: -f 1)"; }
+    "$program" "${path_arguments[@]}" --threads 1 --out "$name-pieces" --stop-after $((($(steps) + $(first)) / 2)) >"$name.log"
+    "$program" --resume "$name-pieces" --threads 2 >"$name.log"
+    test "$(checksum "$name")" = "$(checksum "$name-pieces")" || { checksum "$name"; checksum "$name-pieces"; exit 1; }
+done
+echo "the same bits in one piece and in several"

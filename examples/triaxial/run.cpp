@@ -14,6 +14,8 @@ extern template int run_bundle<solid_modified>(const options&, const char*);
 extern template int run_bundle<solid_unbreakable>(const options&, const char*);
 extern template int run_bundle<rigid_modified>(const options&, const char*);
 extern template int run_bundle<rigid_unbreakable>(const options&, const char*);
+extern template int run_bundle<box_modified>(const options&, const char*);
+extern template int run_bundle<box_unbreakable>(const options&, const char*);
 
 namespace {
 
@@ -29,6 +31,7 @@ int run_test(const options& o) {
     if (o.membrane == "rings") return run_either<rings_modified, rings_unbreakable>(o);
     if (o.membrane == "solid") return run_either<solid_modified, solid_unbreakable>(o);
     if (o.membrane == "rigid") return run_either<rigid_modified, rigid_unbreakable>(o);
+    if (o.membrane == "box") return run_either<box_modified, box_unbreakable>(o);
     return run_either<tiles_modified, tiles_unbreakable>(o);
 }
 

@@ -2,8 +2,10 @@
 // The run loop of one bundle: sets the test up, watches it, saves and resumes it, and hands its results to the folder.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -17,6 +19,7 @@
 #include <clast/io/packing.hpp>
 #include <clast/io/progress.hpp>
 #include <clast/measure/digest.hpp>
+#include <clast/protocol/paths.hpp>
 #include <clast/protocol/triaxial.hpp>
 
 #include "grains.hpp"
@@ -45,36 +48,38 @@ template <class Test> class watcher : public clast::observer {
     watcher(const options& o, Test& test, result_folder& folder, std::string fingerprint)
         : options_(o), test_(test), folder_(folder), fingerprint_(std::move(fingerprint)), bar_(o.quiet),
           saved_at_(std::chrono::steady_clock::now()) {
-        next_snapshot_ = 1 + static_cast<int>(std::floor(test_.protocol().axial_strain() / snapshot_strain() + 1e-9));
+        next_snapshot_ =
+            1 + static_cast<int>(std::floor(std::abs(test_.protocol().axial_strain()) / snapshot_strain() + 1e-9));
     }
 
     void on_row(const clast::sample& s) override {
         folder_.row(s);
-        if (s.stage == "shear" && s.axial_strain >= next_snapshot_ * snapshot_strain() * (1.0 - 1e-9)) {
+        const double strain = std::abs(s.axial_strain);
+        if (is_path(s.stage) && s.stage != "unload" && strain >= next_snapshot_ * snapshot_strain() * (1.0 - 1e-9)) {
             snapshot();
-            next_snapshot_ = 1 + static_cast<int>(std::floor(s.axial_strain / snapshot_strain() + 1e-9));
+            next_snapshot_ = 1 + static_cast<int>(std::floor(strain / snapshot_strain() + 1e-9));
         }
     }
     void on_events(const std::vector<clast::fracture_event>& events) override { folder_.events(events); }
     void on_stage(const std::string& name, bool begins) override {
-        if (begins && !options_.quiet) bar_.note(fmt::format("{}: until {}", name, end_of(name)));
+        const clast::stage& stage = test_.protocol().plan.stages[test_.protocol().stage_number()];
+        if (begins && !options_.quiet) bar_.note(fmt::format("{}: until {}", name, stage.end.text));
         // the specimen as prepared: another run may start from it, whatever its membrane
-        if (name == "consolidate" && begins) write_prepared();
-        if (name == "shear" && begins) {
+        if (stage.hands_over && begins) write_prepared();
+        if (stage.reference_here && begins) {
             folder_.start_of_shear(view());
             next_snapshot_ = 1;
         }
-        if (name == "shear" && !begins) folder_.end_of_shear(view());
+        if (is_path(name) && name != "unload" && !begins) folder_.end_of_shear(view());
         if (begins || name == options_.stop_after_stage) snapshot();
         if (!begins) save_due_ = true;
         if (!begins && name == options_.stop_after_stage) stop_ = true;
     }
     void on_note(const std::string& text) override { bar_.note("note: " + text); }
     void on_progress(const clast::sample& s, double part, double) override {
-        const std::string text = s.stage == "shear" || s.stage == "unload"
-                                     ? fmt::format("eps_a {:5.2f} %", 100.0 * s.axial_strain)
-                                     : fmt::format("p' {:.0f} kPa", 1e-3 * s.p);
-        bar_.update({s.stage, part, whole(s.stage, part), text, s.q, s.steps});
+        const std::string text = is_path(s.stage) ? fmt::format("eps_a {:5.2f} %", 100.0 * s.axial_strain)
+                                                  : fmt::format("p' {:.0f} kPa", 1e-3 * s.p);
+        bar_.update({s.stage, part, whole(part), text, s.q, s.steps});
     }
     void on_pause() override {
         const auto now = std::chrono::steady_clock::now();
@@ -112,20 +117,18 @@ template <class Test> class watcher : public clast::observer {
         const specimen_view v = view();
         folder_.snapshot(test_.sim().time(), v.pebbles, v.facets);
     }
-    std::string end_of(const std::string& name) const {
-        for (const clast::stage& s : test_.protocol().plan.stages)
-            if (s.name == name) return s.end.text;
-        return {};
+    static bool is_path(const std::string& stage) {
+        return std::find(shear_stages.begin(), shear_stages.end(), stage) != shear_stages.end();
     }
     /// Part of the run, by what stages usually cost.
-    double whole(const std::string& name, double part) const {
+    double whole(double part) const {
         double before = 0.0, mine = 0.0, total = 0.0;
-        bool seen = false;
-        for (const clast::stage& s : test_.protocol().plan.stages) {
-            const double weight = s.name == "shear" || s.name == "unload" ? 10.0 : s.name == "seat" ? 0.0 : 1.0;
+        const std::vector<clast::stage>& stages = test_.protocol().plan.stages;
+        for (std::size_t k = 0; k < stages.size(); ++k) {
+            const double weight = is_path(stages[k].name) ? 10.0 : stages[k].name == "seat" ? 0.0 : 1.0;
             total += weight;
-            if (s.name == name) mine = weight, seen = true;
-            if (!seen) before += weight;
+            if (k == test_.protocol().stage_number()) mine = weight;
+            if (k < test_.protocol().stage_number()) before += weight;
         }
         return (before + mine * part) / total;
     }
@@ -142,18 +145,39 @@ template <class Test> class watcher : public clast::observer {
     std::int64_t saved_step_ = -1;
 };
 
+/// The path of a protocol behind the consolidation; stresses and inertial number are those of the setup.
+inline std::vector<clast::stage> path_of(const options& o) {
+    using namespace clast;
+    const quantities::ratio strain{o.strain};
+    const path_options& p = o.path;
+    if (o.protocol == "extension") return {protocol::extension(strain)};
+    if (o.protocol == "cyclic") {
+        protocol::cycle_settings c{
+            .count = p.cycles, .high = quantities::stress{p.cycle_high}, .low = quantities::stress{p.cycle_low}};
+        if (p.cycle_strain > 0.0) c.every = quantities::ratio{p.cycle_strain};
+        return protocol::cyclic(c, strain);
+    }
+    stage shear = o.protocol == "constant_p"      ? protocol::constant_p(strain)
+                  : o.protocol == "undrained"     ? protocol::undrained(strain)
+                  : o.protocol == "true_triaxial" ? protocol::true_triaxial(p.b, strain)
+                                                  : protocol::shear(strain);
+    if (p.peak_drop > 0.0) shear = protocol::until_peak(std::move(shear), quantities::ratio{p.peak_drop});
+    std::vector<stage> path{std::move(shear)};
+    if (o.protocol == "unload") path.push_back(protocol::unloading(quantities::stress{0.05 * o.confining}));
+    return path;
+}
 /// The stages that --protocol asks for.
 inline std::vector<clast::stage> stages_of(const options& o) {
     using namespace clast;
-    const quantities::length diameter{o.diameter()}, height{o.height()};
-    const quantities::stress confining{o.confining};
-    std::vector<stage> s = protocol::preparation(diameter, height);
+    std::vector<stage> s = protocol::preparation();
     if (o.protocol == "prepare") return s;
-    s.push_back(protocol::consolidation(confining));
+    if (o.protocol == "oedometer") {
+        s.push_back(protocol::oedometer(quantities::stress{o.path.axial_stress}, quantities::ratio{o.strain}));
+        return s;
+    }
+    s.push_back(protocol::consolidation());
     if (o.protocol == "isotropic") return s;
-    s.push_back(protocol::shear(confining, quantities::ratio{o.strain}, o.inertial_number));
-    if (o.protocol == "unload")
-        s.push_back(protocol::unloading(confining, quantities::stress{0.05 * o.confining}, o.inertial_number));
+    for (stage& one : path_of(o)) s.push_back(std::move(one));
     return s;
 }
 

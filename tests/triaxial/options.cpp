@@ -236,3 +236,57 @@ TEST_CASE("a specimen of another run brings its grains, size, porosity and seed,
     REQUIRE(has(refusal({"--from", place.string(), "--protocol", "prepare"}), "prepared already"));
     fs::remove_all(place);
 }
+
+TEST_CASE("each protocol has its wall, its strain and its own options, which others refuse") {
+    const auto with = [](std::string protocol, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"--protocol", std::move(protocol)});
+        return more;
+    };
+    REQUIRE(read(with("extension")).strain == 0.1);
+    REQUIRE(read(with("extension", {"--strain", "5%"})).strain == 0.05);
+    REQUIRE(read(with("extension")).membrane == "tiles");
+    REQUIRE(read(with("extension")).out == "results/4B-tiles-weak-2MPa-extension");
+    REQUIRE(read(with("oedometer")).membrane == "solid");
+    REQUIRE(read(with("oedometer")).strain == 0.5);
+    REQUIRE(read(with("oedometer", {"--confining", "1MPa"})).path.axial_stress == 1e6);
+    REQUIRE(read(with("oedometer", {"--axial-stress", "5MPa"})).path.axial_stress == 5e6);
+    REQUIRE(read(with("undrained")).membrane == "tiles");
+    const options cube = read(with("true_triaxial", {"--b", "0.25"}));
+    REQUIRE(cube.membrane == "box");
+    REQUIRE(cube.path.b == 0.25);
+    REQUIRE(cube.rings == 1);
+    REQUIRE(cube.height() == Approx(cube.diameter()));
+    REQUIRE(has(refusal(with("true_triaxial", {"--membrane", "tiles"})), "box with --protocol true_triaxial"));
+    REQUIRE(has(refusal(with("true_triaxial", {"--b", "2"})), "0 to 1"));
+
+    const options cycles = read(with("cyclic"));
+    REQUIRE(cycles.path.cycles == 3);
+    REQUIRE(cycles.path.cycle_high == 1e6);
+    REQUIRE(cycles.path.cycle_low == Approx(1e5));
+    REQUIRE(read(with("cyclic", {"--cycle-strain", "2%"})).path.cycle_strain == 0.02);
+    REQUIRE(read(with("cyclic", {"--cycle-strain", "2%"})).path.cycle_high == 0.0);
+    REQUIRE(has(refusal(with("cyclic", {"--cycle-strain", "2%", "--cycle-deviator", "1MPa"})), "one of the two"));
+    REQUIRE(has(refusal(with("cyclic", {"--cycle-deviator", "50kPa"})), "below --cycle-deviator"));
+    REQUIRE(has(refusal(with("cyclic", {"--cycles", "0"})), "from 1"));
+    REQUIRE(has(refusal({"--cycles", "4"}), "only with --protocol cyclic"));
+    REQUIRE(has(refusal({"--b", "0.2"}), "only with --protocol true_triaxial"));
+    REQUIRE(has(refusal({"--axial-stress", "1MPa"}), "only with --protocol oedometer"));
+    REQUIRE(has(refusal(with("isotropic", {"--until-peak", "10%"})), "--until-peak"));
+    REQUIRE(read({"--until-peak", "10%"}).path.peak_drop == Approx(0.1));
+
+    for (const std::vector<std::string>& one :
+         {with("cyclic", {"--cycles", "7", "--cycle-deviator", "500kPa"}), with("cyclic", {"--cycle-strain", "2%"}),
+          with("oedometer", {"--axial-stress", "5MPa"}), with("true_triaxial", {"--b", "0.25"}),
+          with("undrained", {"--until-peak", "10%"})}) {
+        const options o = read(one), again = read(to_arguments(o));
+        REQUIRE(to_arguments(again) == to_arguments(o));
+        REQUIRE(physics_text(again) == physics_text(o));
+        REQUIRE(physics_text(o) != physics_text(read(with(o.protocol))));
+        REQUIRE(again.path.cycles == o.path.cycles);
+        REQUIRE(again.path.cycle_high == o.path.cycle_high);
+        REQUIRE(again.path.axial_stress == o.path.axial_stress);
+        REQUIRE(again.path.b == o.path.b);
+    }
+    REQUIRE(physics_text(read(with("cyclic", {"--cycle-low-deviator", "50kPa"}))) !=
+            physics_text(read(with("cyclic"))));
+}

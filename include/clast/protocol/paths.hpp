@@ -112,7 +112,7 @@ inline std::vector<stage> cyclic(const cycle_settings& c, quantities::ratio stra
     back.name = "reload", back.reference_here = false;
     back.end = at_last;
     path.push_back(std::move(back));
-    for (stage& s : path) s.row_density = 10.0; // branches are steep
+    for (stage& s : path) s.row_density = 4.0; // branches are steep
     return path;
 }
 

@@ -109,6 +109,8 @@ template <class P> class runner {
     }
 
     const std::string& stage_name() const { return plan.stages[std::min(stage_, plan.stages.size() - 1)].name; }
+    /// Number of the running stage in the plan; that of stages where all have ended.
+    std::size_t stage_number() const { return stage_; }
     bool finished() const { return stage_ >= plan.stages.size(); }
     double axial_strain() const { return 1.0 - sim.boundary.height() / reference_height_; }
     double wall_time() const { return wall_time_; }
@@ -149,8 +151,7 @@ template <class P> class runner {
         s.porosity = 1.0 - solid_volume_ / s.volume;
         const double sum = s.sigma_1 + s.sigma_3;
         const double difference = running().lateral_y ? s.sigma_1 - s.sigma_3 : s.q;
-        s.phi_mob_deg =
-            sum > 0.0 ? std::asin(std::clamp(difference / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
+        s.phi_mob_deg = sum > 0.0 ? std::asin(std::clamp(difference / sum, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
         s.inertial_number =
             s.p > 0.0 ? std::abs(closing_speed()) / s.height * plan.grain_diameter / std::sqrt(s.p / sim.grains.density)
                       : 0.0;
