@@ -311,3 +311,51 @@ TEST_CASE("a stage that ends at its peak ends there, or at its strain") {
     CHECK(watch.rows.back().q > 0.65 * peak);
     CHECK(watch.rows.back().axial_strain < 0.03);
 }
+
+TEST_CASE("grains break in a box, in cluster and fragments, and its six walls keep every one") {
+    using policies = scenes::breakable<boundaries::box>;
+    policies::replacement weak{};
+    weak.bond.tensile_strength *= 0.01, weak.bond.cohesion *= 0.01;
+    const triaxial_setup<policies> s{.grain = shapes::tetrahedron_4(0.02),
+                                     .diameter = 66_mm,
+                                     .height = 75_mm,
+                                     .confining = 200_kPa,
+                                     .breakage = {criteria::crushing_strength(1e6)},
+                                     .replacement = weak,
+                                     .porosity = 0.6,
+                                     .inertial_number = 5e-3};
+    const std::vector<stage> stages = after_preparation({protocol::true_triaxial(0.5, 5_percent)});
+    triaxial_test<policies> test(s, stages);
+    struct counter : recorder {
+        std::int64_t broken = 0;
+        void on_events(const std::vector<fracture_event>& e) override { broken += static_cast<std::int64_t>(e.size()); }
+        bool often = false;
+        bool stop_requested() override { return often; }
+    } watch;
+    REQUIRE(test.run(watch));
+    const sample& last = watch.rows.back();
+    CHECK(last.replaced >= 3);
+    CHECK(last.broken_tension + last.broken_shear >= 6); // some fell apart
+    CHECK(watch.broken == last.broken_tension + last.broken_shear);
+    CHECK(std::abs(last.energy_residual) < 0.02);
+    std::size_t pebbles = 0;
+    const vec3 low = test.sim().boundary.low(), high = test.sim().boundary.high();
+    for (const pebble_view& p : test.protocol().pebbles()) {
+        for (int a = 0; a < 3; ++a) CHECK((p.position[a] > low[a] && p.position[a] < high[a]));
+        ++pebbles;
+    }
+    CHECK(pebbles == test.sim().grains.pebble_count());
+    // the same in pieces
+    auto parts = std::make_unique<triaxial_test<policies>>(s, stages);
+    counter pieces;
+    pieces.often = true;
+    while (!parts->run(pieces)) {
+        if (parts->sim().totals().replaced == 0 || parts->sim().totals().steps % 1300 != 0) continue;
+        write_archive out;
+        out(*parts);
+        parts = std::make_unique<triaxial_test<policies>>(s, stages);
+        read_archive in(out.buffer);
+        in(*parts);
+    }
+    CHECK(checksum(parts->sim()) == checksum(test.sim()));
+}
