@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <clast/protocol/test_plan.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
 #include <catch.hpp>
 
 #include "small_test.hpp"
@@ -30,4 +36,40 @@ TEST_CASE("drives that count in parts of the setup take its sizes, stress and in
     CHECK(done.stages[3].axial.value == 0.5);
     CHECK(done.stages[4].lateral.value == 0.5);
     for (const stage& s : done.stages) CHECK((!s.axial.of_setup && !s.lateral.of_setup));
+}
+
+TEST_CASE("a condition that keeps a state by reference is refused, and one that keeps it in its memory is not") {
+    const auto said = [](condition end, axis_drive lateral = {}) -> std::string {
+        test_plan p;
+        p.stages = {{.name = "shear", .lateral = std::move(lateral), .end = std::move(end)}};
+        try {
+            (void)protocol::completed(p, false);
+        } catch (const input_error& e) {
+            return e.what();
+        }
+        return {};
+    };
+    const auto none = [](const stage_view&) { return 0.0; };
+    double peak = 0.0;
+    const condition by_reference{"past its peak",
+                                 [&peak](const stage_view& v) {
+                                     peak = std::max(peak, v.q);
+                                     return v.q < 0.9 * peak;
+                                 },
+                                 none};
+    CHECK(said(by_reference).find("'past its peak'") != std::string::npos);
+    peak = 0.0;
+    CHECK(said(by_reference).find("stage_view::memory") != std::string::npos);
+    peak = 0.0;
+    CHECK_FALSE(said(by_reference || until::steps(5)).empty());
+    const auto shared = std::make_shared<double>(0.0);
+    const auto lowest = [shared](const stage_view& v) { return *shared = std::max(*shared, v.q); };
+    CHECK(said(until::steps(5), drive_by::stress_that(lowest)).find("a target") != std::string::npos);
+    *shared = 0.0;
+    CHECK_FALSE(said({"steps", [](const stage_view& v) { return v.steps > 10; }, lowest}).empty());
+    double limit = 2e5; // only read
+    CHECK(said({"q", [&limit](const stage_view& v) { return v.q > limit; }, none}).empty());
+    CHECK(said(until::peak_passed(quantities::ratio{0.1}) || until::axial_strain(quantities::ratio{0.1})).empty());
+    CHECK(said({"nothing", [](const stage_view&) { return false; }, [](const stage_view&) { return std::nan(""); }})
+              .empty());
 }

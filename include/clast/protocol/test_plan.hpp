@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <fmt/core.h>
@@ -95,7 +97,49 @@ inline void check_drives(const stage& s, bool three_axes) {
         refuse("lateral", "another drive beside lateral_y", "a stress",
                "Use drive_by::stress or drive_by::stress_that.");
 }
-/// The plan with drives in SI units alone. Throws input_error where it has no stage, or drives that cannot be.
+/// Whether a function of a view answers otherwise after it has seen other states: then it keeps something that no
+/// checkpoint would save, by a reference or a pointer. Asked for states on a way up, and for the same on the way down,
+/// with fresh numbers of its own (memory: how many) each time.
+template <class Answer> bool remembers(const view_function<Answer>& f, std::size_t memory) {
+    if (!f) return false;
+    constexpr int states = 12;
+    const auto ask = [&](int k) {
+        stage_view v;
+        v.axial_strain = 0.02 * k, v.volumetric_strain = 0.01 * k;
+        v.q = 1e5 * k, v.p = 1e5 * k + 1e5, v.sigma_3 = 1e5, v.sigma_2 = 1.5e5, v.sigma_1 = 1e5 * k + 1e5;
+        v.unbalanced_ratio = 0.1 * k, v.sphere_stress = 1e3 * k, v.mean_contact_force = 10.0 * k;
+        v.coordination = 0.5 * k, v.kinetic_density = 0.1 * k;
+        v.axial_error = v.confining_error = 0.01 * k, v.travel_left = 0.08 * k;
+        v.steps = 1000 * k, v.time = 0.01 * k;
+        v.confining = 1e5, v.grain_diameter = 0.02;
+        std::vector<double> numbers(memory);
+        v.memory = numbers;
+        return f(v);
+    };
+    std::vector<Answer> up;
+    for (int k = 0; k < states; ++k) up.push_back(ask(k));
+    for (int k = states; k-- > 0;) {
+        const Answer again = ask(k), before = up[static_cast<std::size_t>(k)];
+        if (again != before && (again == again || before == before)) return true; // NaN is like NaN
+    }
+    return false;
+}
+/// Throws input_error where a condition or a target of a stage keeps a state of its own.
+inline void check_memory(const stage& s) {
+    const auto refuse = [&s](const std::string& what) {
+        throw input_error(fmt::format("stage '{}'", s.name),
+                          fmt::format("{} that remembers what it has seen, by a reference or a pointer", what),
+                          "a function of what it is shown, and of its stage_view::memory, which checkpoints save",
+                          "Keep numbers in stage_view::memory, and say how many in condition::memory.");
+    };
+    if (remembers(s.end.met, s.end.memory) || remembers(s.end.progress, s.end.memory))
+        refuse(fmt::format("a condition ('{}')", s.end.text));
+    if (remembers(s.axial.target, 0) || remembers(s.lateral.target, 0) ||
+        (s.lateral_y && remembers(s.lateral_y->target, 0)))
+        refuse("a target");
+}
+/// The plan with drives in SI units alone. Throws input_error where it has no stage, drives that
+/// cannot be, or functions that keep a state of their own.
 inline test_plan completed(test_plan plan, bool three_axes) {
     if (plan.stages.empty())
         throw input_error("protocol", "no stages", "at least one stage", "Add a stage to the plan.");
@@ -104,6 +148,7 @@ inline test_plan completed(test_plan plan, bool three_axes) {
         take_from_setup(s.lateral, plan, plan.radius);
         if (s.lateral_y) take_from_setup(*s.lateral_y, plan, plan.radius);
         check_drives(s, three_axes);
+        check_memory(s);
     }
     return plan;
 }
