@@ -27,14 +27,16 @@ struct cylinder_settings {
     double largest_gap = 0.0;             ///< largest step between tiles of a column (m); 0: 2 smallest_radius
     double largest_step = 0.0;            ///< largest step between neighbours of a ring (m); 0: largest_gap
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-tile contact, least K of the servo (N/m), > 0
-    double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius
+    double largest_radius = 0.0;          ///< a tile beyond this apothem has torn the membrane (m); 0: 1.6 radius, of a
+                                          ///< joined wall 2.5
     control::gap_rule gaps{};
     double bending = 3.0; ///< of a sheet: its stiffness against kinks (node_rows.hpp), in sigma_3 times the spacing of
                           ///< its rows, >= 0
 };
 
-/// The same with its defaults filled in. Throws input_error, by the name of the member, where one makes no sense.
-inline cylinder_settings checked(cylinder_settings s) {
+/// The same with its defaults filled in. tears_at: default of largest_radius, in radii. Throws input_error, by the name
+/// of the member, where one makes no sense.
+inline cylinder_settings checked(cylinder_settings s, double tears_at = 1.6) {
     const auto demand = [](bool good, const char* name, double value, const char* allowed, const char* way_out) {
         if (!good)
             throw input_error(std::string("cylinder_settings.") + name, fmt::format("{}", value), allowed, way_out);
@@ -57,8 +59,9 @@ inline cylinder_settings checked(cylinder_settings s) {
     demand(s.largest_gap > 0.0, "largest_gap", s.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
     if (s.largest_step == 0.0) s.largest_step = s.largest_gap;
     demand(s.largest_step > 0.0, "largest_step", s.largest_step, "> 0 m", "0 takes largest_gap.");
-    if (s.largest_radius == 0.0) s.largest_radius = 1.6 * s.radius;
-    demand(s.largest_radius > s.radius, "largest_radius", s.largest_radius, "above radius", "0 takes 1.6 radius.");
+    if (s.largest_radius == 0.0) s.largest_radius = tears_at * s.radius;
+    demand(s.largest_radius > s.radius, "largest_radius", s.largest_radius, "above radius",
+           fmt::format("0 takes {:g} radius.", tears_at).c_str());
     return s;
 }
 

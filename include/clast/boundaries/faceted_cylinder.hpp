@@ -116,7 +116,7 @@ template <moving_unit Unit, class Surface> class faceted_cylinder : public Surfa
 
 template <moving_unit Unit, class Surface>
 faceted_cylinder<Unit, Surface>::faceted_cylinder(const cylinder_settings& settings)
-    : Surface(Unit == moving_unit::wall ? 1 : settings.rings, checked(settings)) {
+    : Surface(Unit == moving_unit::wall ? 1 : settings.rings, checked(settings, Surface::tears_at)) {
     calm_.resize(index(rings_) * index(units_around()));
     if constexpr (Unit != moving_unit::wall) {
         const int columns = units_around();

@@ -152,6 +152,8 @@ template <class = void> class tile_rings : public facet_rings<> {
     }
 
   protected:
+    /// Default of largest_radius, in radii.
+    static constexpr double tears_at = 1.6;
     /// Tiles that share a pebble pass its whole load to each other over a fraction of a micrometre.
     static constexpr bool solved_together = true;
     /// Largest steps (m) between neighbours up a column and around a ring.
