@@ -231,6 +231,64 @@ TEST_CASE("a stress target of zero has errors, and a stage that goes there ends"
     CHECK(last >= 0.0);
 }
 
+TEST_CASE("rows of a consolidation are dense enough to draw e against log p', and not more than that") {
+    std::vector<stage> stages = protocol::preparation(66_mm, 75_mm);
+    stages.push_back(protocol::consolidation(200_kPa));
+    triaxial_setup<rigid> slow = setup();
+    slow.inertial_number = 1e-3;
+    test_type test(slow, stages);
+    test.protocol().plan.row_steps = 1'000'000'000;
+    recorder watch;
+    REQUIRE(test.run(watch));
+    std::vector<double> p;
+    for (const sample& s : watch.rows)
+        if (s.stage == "consolidate" && s.p > 0.02 * 200e3) p.push_back(s.p);
+    CHECK(p.size() >= 15);
+    CHECK(p.size() <= 60);
+    for (std::size_t k = 1; k + 1 < p.size(); ++k) {
+        CHECK(p[k] > 1.1 * p[k - 1]);
+        if (p[k - 1] > 0.1 * 200e3) CHECK(p[k] < 1.4 * p[k - 1]); // but for jumps, as where the walls meet the grains
+    }
+}
+
+TEST_CASE("a fracture tells its stage and the strain of its stage") {
+    using policies = scenes::breakable<boundaries::solid_strips>;
+    policies::replacement weak{};
+    weak.bond.tensile_strength *= 0.01, weak.bond.cohesion *= 0.01;
+    triaxial_test<policies> test({.grain = shapes::tetrahedron_4(0.02),
+                                  .diameter = 66_mm,
+                                  .height = 75_mm,
+                                  .confining = 200_kPa,
+                                  .breakage = {criteria::crushing_strength(0.6e6)},
+                                  .replacement = weak,
+                                  .porosity = 0.6,
+                                  .tiles_per_ring = 8,
+                                  .inertial_number = 5e-3},
+                                 {compact(), consolidate(), protocol::shear(200_kPa, 5_percent, 5e-3)});
+    struct listener : recorder {
+        std::vector<fracture_event> events;
+        void on_events(const std::vector<fracture_event>& e) override {
+            events.insert(events.end(), e.begin(), e.end());
+        }
+    } watch;
+    REQUIRE(test.run(watch));
+    std::size_t before = 0, in_shear = 0;
+    double earlier = 0.0;
+    for (const fracture_event& e : watch.events) {
+        CHECK((e.stage == "consolidate" || e.stage == "shear"));
+        (e.stage == "shear" ? in_shear : before) += 1;
+        CHECK(e.axial_strain > -0.02);
+        CHECK(e.axial_strain < 0.2); // counted from the vessel of the cloud it would be 0.4 and more
+        if (e.stage == "shear") {
+            CHECK(e.axial_strain >= earlier);
+            CHECK(e.axial_strain <= 0.0501);
+            earlier = e.axial_strain;
+        }
+    }
+    CHECK(before > 0);
+    CHECK(in_shear > 0);
+}
+
 TEST_CASE("the energy of a test under gravity closes in the column of its residual") {
     struct heavy : rigid {
         using field = fields::gravity;

@@ -88,6 +88,7 @@ inline constexpr column<sample> series_columns[] = {
 /// Columns of events.csv: one row per broken bond.
 inline constexpr column<fracture_event> event_columns[] = {
     {"time", "s", [](fracture_event& r) -> cell { return &r.time; }},
+    {"stage", "", [](fracture_event& r) -> cell { return &r.stage; }},
     {"axial_strain", "", [](fracture_event& r) -> cell { return &r.axial_strain; }},
     {"mode", "", [](fracture_event& r) -> cell { return &r.mode; }},
     {"x", "m", [](fracture_event& r) -> cell { return &r.position.x; }},

@@ -63,7 +63,8 @@ enum class break_mode : std::uint8_t { tension, shear };
 /// One broken bond: one fracture of the paper's figures 8 to 10 and 13.
 struct fracture_event {
     double time = 0.0;         ///< (s)
-    double axial_strain = 0.0; ///< at the event
+    std::string stage;         ///< name of the stage that was running
+    double axial_strain = 0.0; ///< as in its row of the series; before shear since the start of that stage
     break_mode mode = break_mode::tension;
     vec3 position;                ///< bond point (m), kept where it happened (paper Fig. 8)
     vec3 normal;                  ///< unit normal of the bond

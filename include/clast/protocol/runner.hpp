@@ -187,8 +187,9 @@ template <class P> class runner {
     template <class A> void archive(A& a) {
         sim.archive(a);
         a(stage_, begun_, ended_by_itself_, stage_steps_, stage_time_, stage_work_, stage_losses_, stage_residual_,
-          reference_height_, reference_volume_, start_volume_, start_sigma_3_, reference_, speed_, error_sum_,
-          error_count_, next_row_, row_start_, wall_time_, record_, records_, tries_, still_, handed_, view_, memory_);
+          reference_height_, reference_volume_, start_height_, start_volume_, start_sigma_3_, counts_strain_, row_p_,
+          reference_, speed_, error_sum_, error_count_, next_row_, row_start_, wall_time_, record_, records_, tries_,
+          still_, handed_, view_, memory_);
         if constexpr (A::reading)
             if (begun_ && (finished() || memory_.size() != current().end.memory))
                 throw input_error("checkpoint", fmt::format("stage {} with {} numbers kept", stage_, memory_.size()),
@@ -196,6 +197,10 @@ template <class P> class runner {
     }
 
   private:
+    /// Rows while a stress is built up, 60 at most: each at a p' larger by this ratio, from this part of the confining
+    /// stress on.
+    static constexpr double rows_ratio = 1.1, rows_from = 5e-3;
+
     const stage& current() const { return plan.stages[stage_]; }
     /// The same, or the last one where all have ended.
     const stage& running() const { return plan.stages[std::min(stage_, plan.stages.size() - 1)]; }
@@ -229,6 +234,8 @@ template <class P> class runner {
         stage_steps_ = 0, stage_time_ = 0.0, tries_ = 0;
         error_sum_ = 0.0, error_count_ = 0;
         hand_over();
+        start_height_ = sim.boundary.height();
+        counts_strain_ = counts_strain_ || s.reference_here;
         if (s.reference_here) {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
@@ -250,7 +257,7 @@ template <class P> class runner {
         speed_.begin(s, felt(now.p, now.coordination));
         row_start_ = axial_strain();
         protocol::check_direction(s, row_start_);
-        next_row_ = 1;
+        next_row_ = 1, row_p_ = 0.0;
         still_ = {};
         view_ = {};
         memory_.assign(s.end.memory, 0.0);
@@ -410,6 +417,11 @@ template <class P> class runner {
             const double done = std::abs(axial_strain() - row_start_);
             return done >= static_cast<double>(next_row_) * row_strain();
         }
+        // while a stress is built up: at equal steps of its logarithm, as e is drawn against it
+        if (k == axis_drive::kind::stress) {
+            const double p = stresses().p;
+            if (p > rows_from * plan.confining && p > rows_ratio * row_p_) return true;
+        }
         return stage_steps_ % plan.row_steps == 0;
     }
 
@@ -417,6 +429,7 @@ template <class P> class runner {
         flush_events(watch);
         last_row_ = sim.totals().steps;
         const sample row = measure();
+        row_p_ = std::max(row_p_, row.p);
         watch.on_row(row);
         if (scene_watch_ != nullptr) {
             sim.place_all();
@@ -431,7 +444,9 @@ template <class P> class runner {
     void flush_events(observer& watch) {
         std::vector<fracture_event> events = sim.take_events();
         if (events.empty()) return;
-        for (fracture_event& e : events) e.axial_strain = axial_strain();
+        // before the strains of the test begin to count, those that go back to the vessel of the cloud say nothing
+        const double strain = counts_strain_ ? axial_strain() : 1.0 - sim.boundary.height() / start_height_;
+        for (fracture_event& e : events) e.stage = stage_name(), e.axial_strain = strain;
         watch.on_events(events);
     }
 
@@ -445,7 +460,9 @@ template <class P> class runner {
     double stage_time_ = 0.0, stage_work_ = 0.0, stage_losses_ = 0.0, stage_residual_ = 0.0;
     std::int64_t tries_ = 0; ///< frictions tried in this stage
     double reference_height_ = 0.0, reference_volume_ = 0.0;
-    double start_volume_ = 0.0, start_sigma_3_ = 0.0; ///< at the start of the stage (m^3, Pa)
+    double start_height_ = 0.0, start_volume_ = 0.0, start_sigma_3_ = 0.0; ///< at the start of the stage (m, m^3, Pa)
+    bool counts_strain_ = false; ///< whether a stage with `reference_here` has begun
+    double row_p_ = 0.0;         ///< largest p of the rows of this stage (Pa)
     std::vector<vec3> reference_;
     protocol::wall_speed speed_;
     protocol::standstill still_;
