@@ -132,11 +132,16 @@ std::string hex(const rgb& c) {
 /// Writes a figure's script and data and draws it; collects what went wrong.
 class plot_folder {
   public:
-    plot_folder(std::filesystem::path folder, plot_report& report) : folder_(std::move(folder)), report_(report) {
+    plot_folder(std::filesystem::path folder, plot_report& report, const std::string& mark)
+        : folder_(std::move(folder)), report_(report) {
         std::filesystem::create_directories(folder_ / "data");
         std::error_code none;
         std::filesystem::remove(folder_ / "gnuplot.log", none);
-        clast::detail::replace_file(folder_ / "style.gp", {style_script});
+        std::string style(style_script);
+        if (!mark.empty())
+            style += fmt::format(
+                "set label 9001 \"{}\" at screen 0.985, screen 0.975 right front noenhanced textcolor rgb red\n", mark);
+        clast::detail::replace_file(folder_ / "style.gp", {style});
     }
 
     void data(const std::string& name, const std::string& content) const {
@@ -545,7 +550,7 @@ void draw_curves(plot_folder& plots, const plot_request& request, const std::vec
 
 plot_report draw_plots(const std::filesystem::path& folder, const plot_request& request) {
     plot_report report;
-    plot_folder plots(folder, report);
+    plot_folder plots(folder, report, request.mark);
     const std::vector<sample> rows = clast::read_table<sample>(request.series);
     draw_curves(plots, request, rows);
     std::vector<fracture_event> events = clast::read_table<fracture_event>(request.events);

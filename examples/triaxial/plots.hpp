@@ -28,6 +28,7 @@ struct plot_request {
     specimen_view end;                                  ///< at the end of shear (empty: not drawn)
     std::vector<std::string> stages{"shear", "unload"}; ///< stages that are drawn against axial strain
     std::vector<std::string> loading{"consolidate"};    ///< stages whose compression curve is drawn
+    std::string mark;                                   ///< in the corner of every figure; without quotes
 };
 
 /// What was drawn, and what could not be.

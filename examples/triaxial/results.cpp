@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -77,6 +79,32 @@ double peak_memory_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// "confining stress = 2000000 Pa" as {"confining_stress_Pa", 2000000}: numbers are numbers, their units in the key;
+/// what is no number stays text.
+template <class Json> std::pair<std::string, Json> input_of(const std::string& line) {
+    const auto equals = line.find(" = ");
+    std::string key = line.substr(0, equals), value = line.substr(equals + 3), unit;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    std::replace(key.begin(), key.end(), '-', '_');
+    if (const auto space = value.find(' '); space != std::string::npos)
+        unit = value.substr(space + 1), value.resize(space);
+    const auto read = [&value](auto number) -> std::optional<decltype(number)> {
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+        if (error != std::errc{} || end != value.data() + value.size()) return {};
+        return number;
+    };
+    Json number;
+    if (const auto whole = read(std::uint64_t{}))
+        number = *whole;
+    else if (const auto any = read(0.0))
+        number = *any;
+    else
+        return {key, Json(line.substr(equals + 3))};
+    if (const auto words = unit.find(' '); words != std::string::npos) unit.resize(words); // "N/m per bond"
+    for (std::size_t slash; (slash = unit.find('/')) != std::string::npos;) unit.replace(slash, 1, "_per_");
+    return {unit.empty() ? key : key + "_" + unit, number};
 }
 
 std::string time_text(double seconds) {
@@ -295,11 +323,15 @@ void result_folder::write_summary(const run_facts& facts, const summary_numbers&
     const std::string text = physics_text(options_);
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
         const std::string line = text.substr(at, end - at);
-        const auto equals = line.find(" = ");
-        inputs[line.substr(0, equals)] = line.substr(equals + 3);
+        const auto [key, value] = input_of<json>(line);
+        inputs[key] = value;
     }
     json j;
     j["program"] = {{"name", "clast triaxial"}, {"version", clast::version()}, {"policies", facts.bundle}};
+    j["finished"] = !facts.stopped_by;
+    if (const auto& f = facts.stopped_by)
+        j["unfinished"] = {
+            {"what", f->what}, {"where", f->where}, {"when", f->when}, {"why", f->why}, {"advice", f->advice}};
     j["inputs"] = inputs;
     j["arguments"] = to_arguments(options_);
     j["machine"] = {{"cpu", cpu_model()},
@@ -390,6 +422,7 @@ void result_folder::finish(const run_facts& facts) {
         request.events = folder_ / "events.csv";
         request.stages = shear_stages;
         request.loading = loading_stages;
+        if (facts.stopped_by) request.mark = "unfinished";
         request.loading.emplace_back("load"); // of an oedometer
         const auto view = [this](const char* name) {
             const fs::path path = folder_ / "plots" / "data" / name;
@@ -458,6 +491,7 @@ void result_folder::finish(const run_facts& facts) {
     if (!report.pictures.empty())
         fmt::print("  {:<40} {} figures (.svg and .png) and their gnuplot scripts\n", (folder_ / "plots").string(),
                    report.pictures.size() / 2);
+    if (facts.stopped_by) fmt::print("unfinished: {}\n", facts.stopped_by->what);
     for (const std::string& remark : remarks(n)) fmt::print("{}\n", remark);
     for (const clast::stage_record& s : facts.stages)
         if (!s.reached) fmt::print("note: {}: {}\n", s.name, s.end);

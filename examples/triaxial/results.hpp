@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <clast/core/errors.hpp>
 #include <clast/io/csv.hpp>
 #include <clast/io/vtk.hpp>
 #include <clast/measure/sample.hpp>
@@ -36,9 +37,10 @@ struct run_facts {
     std::int64_t pebbles = 0;
     std::int64_t bonds_in_all_grains = 0; ///< if all of them became clusters
     int threads = 1;
-    std::string bundle;                        ///< name of the policies
-    std::uint64_t checksum = 0;                ///< of the final state
-    std::vector<clast::stage_record> stages{}; ///< those that have ended
+    std::string bundle;                         ///< name of the policies
+    std::uint64_t checksum = 0;                 ///< of the final state
+    std::vector<clast::stage_record> stages{};  ///< those that have ended
+    std::optional<clast::failure> stopped_by{}; ///< what ended the run short of its protocol
     std::vector<std::pair<std::string, double>>
         more; ///< further numbers by name with unit, e.g. {"grain_step_s", 1e-5}
 };
@@ -129,7 +131,8 @@ class result_folder {
     [[nodiscard]] std::filesystem::path checkpoint() const { return folder_ / "checkpoint.clast"; }
     [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
-    /// Writes summary.json, draws the figures (unless --no-plots) and prints the summary and the paths to stdout.
+    /// Writes summary.json, draws the figures (unless --no-plots) and prints the summary and the paths to stdout. Of a
+    /// run that was stopped by an error, too: all of them say "unfinished".
     void finish(const run_facts& facts);
 
   private:

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
 #include <limits>
 #include <string>
 #include <utility>
@@ -105,6 +107,10 @@ template <class Test> class watcher : public clast::observer {
         saved_step_ = test_.sim().totals().steps;
     }
     std::int64_t saved_step() const { return saved_step_; }
+    /// The specimen for the figures, where a run ends in the middle of its path.
+    void end_short() {
+        if (!test_.protocol().finished() && is_path(test_.protocol().stage_name())) folder_.end_of_shear(view());
+    }
     clast::progress& bar() { return bar_; }
 
   private:
@@ -234,6 +240,31 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
             .rows = std::max<std::int64_t>(1, std::llround(o.rows * 0.25 / o.strain))};
 }
 
+/// What the summary tells of a test. bundle: name of its policies.
+template <class Test> run_facts facts_of(Test& test, const char* bundle) {
+    clast::boundaries::boundary_counters counters; // of walls that have any
+    if constexpr (requires { test.sim().boundary.counters(); }) counters = test.sim().boundary.counters();
+    std::int64_t bonds_in_all_grains = 0;
+    for (const clast::grain& g : test.sim().grains.grains)
+        bonds_in_all_grains += static_cast<std::int64_t>(test.sim().grains.shape_of(g).bonds.size());
+    return {.grains = static_cast<std::int64_t>(test.sim().grains.grain_count()),
+            .pebbles = static_cast<std::int64_t>(test.sim().grains.pebble_count()),
+            .bonds_in_all_grains = bonds_in_all_grains,
+            .threads = test.setup().threads,
+            .bundle = bundle,
+            // without the forces of the last step, which a finished run that is looked at again does not have
+            .checksum = clast::measure::digest_of_state(test.sim()),
+            .stages = test.protocol().records(),
+            .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
+                     {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
+                     {"sub_steps_of_light_bodies", static_cast<double>(test.sim().light_steps())},
+                     {"tile_steps_at_speed_limit_share",
+                      counters.tile_steps > 0
+                          ? static_cast<double>(counters.capped) / static_cast<double>(counters.tile_steps)
+                          : 0.0},
+                     {"latched_pair_steps", static_cast<double>(counters.latched_pair_steps)}}};
+}
+
 template <class P> int run_bundle(const options& o, const char* name) {
     using test_type = clast::triaxial_test<P>;
     const std::string fingerprint = fmt::format("bundle = {}\n{}", name, physics_text(o));
@@ -262,6 +293,14 @@ template <class P> int run_bundle(const options& o, const char* name) {
                         ? fmt::format("\n  last checkpoint: {} (step {}); go on from it with --resume {}",
                                       folder.checkpoint().string(), watch.saved_step(), folder.path().string())
                         : "\n  last checkpoint: none was written yet";
+        try { // what there is, for one who looks for the cause
+            watch.end_short();
+            run_facts facts = facts_of(test, name);
+            facts.stopped_by = f;
+            folder.finish(facts);
+        } catch (const std::exception& also) {
+            fmt::print(stderr, "note: summary and figures of what there is could not be written: {}\n", also.what());
+        }
         throw clast::run_error(f);
     }
     watch.bar().clear();
@@ -271,28 +310,8 @@ template <class P> int run_bundle(const options& o, const char* name) {
         return requested_stop() != 0 ? 128 + requested_stop() : 0;
     }
     if (o.protocol == "prepare") watch.write_prepared();
-    watch.save();                                  // so that a finished run can be looked at again
-    clast::boundaries::boundary_counters counters; // of walls that have any
-    if constexpr (requires { test.sim().boundary.counters(); }) counters = test.sim().boundary.counters();
-    std::int64_t bonds_in_all_grains = 0;
-    for (const clast::grain& g : test.sim().grains.grains)
-        bonds_in_all_grains += static_cast<std::int64_t>(test.sim().grains.shape_of(g).bonds.size());
-    folder.finish({.grains = static_cast<std::int64_t>(test.sim().grains.grain_count()),
-                   .pebbles = static_cast<std::int64_t>(test.sim().grains.pebble_count()),
-                   .bonds_in_all_grains = bonds_in_all_grains,
-                   .threads = test.setup().threads,
-                   .bundle = name,
-                   // without the forces of the last step, which a finished run that is looked at again does not have
-                   .checksum = clast::measure::digest_of_state(test.sim()),
-                   .stages = test.protocol().records(),
-                   .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
-                            {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
-                            {"sub_steps_of_light_bodies", static_cast<double>(test.sim().light_steps())},
-                            {"tile_steps_at_speed_limit_share",
-                             counters.tile_steps > 0
-                                 ? static_cast<double>(counters.capped) / static_cast<double>(counters.tile_steps)
-                                 : 0.0},
-                            {"latched_pair_steps", static_cast<double>(counters.latched_pair_steps)}}});
+    watch.save(); // so that a finished run can be looked at again
+    folder.finish(facts_of(test, name));
     return 0;
 }
 

@@ -173,6 +173,16 @@ TEST_CASE("all figures are drawn and their scripts stay") {
     for (const auto& p : report.pictures) REQUIRE(fs::file_size(p) > 2000);
 }
 
+TEST_CASE("figures of an unfinished run are marked") {
+    const folder f;
+    plot_request request = small_test(f.path);
+    draw_plots(f.path / "plots", request);
+    REQUIRE(clast::detail::read_whole(f.path / "plots" / "style.gp").find("unfinished") == std::string::npos);
+    request.mark = "unfinished";
+    REQUIRE(draw_plots(f.path / "plots", request).problems.empty());
+    REQUIRE(clast::detail::read_whole(f.path / "plots" / "style.gp").find("\"unfinished\"") != std::string::npos);
+}
+
 TEST_CASE("a missing gnuplot is said and does not stop the run") {
     const folder f;
     const char* old = std::getenv("PATH");

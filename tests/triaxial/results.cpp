@@ -228,7 +228,13 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     r.finish(facts);
     const auto j = nlohmann::json::parse(text_of(o.out / "summary.json"));
     REQUIRE(j["inputs"]["shape"] == "4B");
-    REQUIRE(j["inputs"]["confining stress"] == "2000000 Pa");
+    REQUIRE(j["inputs"]["confining_stress_Pa"] == 2000000);
+    REQUIRE(j["inputs"]["bond_stiffness_N_per_m"] == 9.6e8);
+    REQUIRE(j["inputs"]["seed"].is_number_unsigned());
+    REQUIRE(j["inputs"]["axial_strain"] == 0.25);
+    REQUIRE(j["inputs"]["protocol"] == "triaxial");
+    REQUIRE(j["finished"] == true);
+    REQUIRE_FALSE(j.contains("unfinished"));
     REQUIRE(j["specimen"]["grains"] == 50);
     REQUIRE(j["shear"]["peak_q_Pa"].get<double>() == Approx(4e6));
     REQUIRE(j["shear"]["q_contacts_over_q_last_fifth_of_strain"].get<double>() == Approx(1.01));
@@ -247,4 +253,21 @@ TEST_CASE("summary.json holds inputs, machine, numbers and checksum") {
     REQUIRE(j["more"]["grain_step_s"] == 1e-5);
     REQUIRE(j["final_state_checksum"] == "0000000000000abc");
     REQUIRE(j["machine"].contains("cpu"));
+}
+
+TEST_CASE("a run that was stopped by an error has its summary, and says that it is unfinished, and why") {
+    const folder f;
+    const options o = f.run();
+    result_folder r(o);
+    for (const sample& s : some_rows()) r.row(s);
+    run_facts facts;
+    facts.stages = some_records();
+    facts.stages.resize(3); // the shear has not ended
+    facts.stopped_by = clast::failure{"The membrane is torn", "tile 3", "step 7", "too fast", "load more slowly"};
+    r.finish(facts);
+    const auto j = nlohmann::json::parse(text_of(o.out / "summary.json"));
+    REQUIRE(j["finished"] == false);
+    REQUIRE(j["unfinished"]["what"] == "The membrane is torn");
+    REQUIRE(j["unfinished"]["when"] == "step 7");
+    REQUIRE(j["shear"]["peak_q_Pa"].get<double>() == Approx(4e6)); // of what there is
 }
