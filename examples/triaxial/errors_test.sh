@@ -71,6 +71,8 @@ refuse 2 "--strength: '0MPa'" "1kPa to 1TPa" -- --strength 0MPa
 refuse 2 "--grain-size: 'sieve'" "equivalent, circumscribed" -- --grain-size sieve
 refuse 2 "--stiffness: 'hertz'" "contact, series" -- --stiffness hertz
 refuse 2 "--contact-force: 'sum'" "resultant, single" -- --contact-force sum
+refuse 2 "--membrane-stiffness: '3kN/m'" "none with --membrane solid" -- --membrane solid --membrane-stiffness 3kN/m
+refuse 2 "--membrane-stiffness: '3kN'" "N/m" -- --membrane-stiffness 3kN
 refuse 2 "--weibull: '0'" "1 to 100, or none" -- --weibull 0
 refuse 2 "--membrane: 'rubber'" "tiles, rings, solid, rigid" -- --membrane rubber
 refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --criterion tresca

@@ -39,7 +39,7 @@ struct raw {
         rings, tiles, confining, scale, strain, inertial_number, criterion, weibull, replacement, birth, bond_stiffness,
         friction, platen_friction, membrane_friction, damping, seed, threads, out, resume, save_every, snapshots, rows,
         stop_after, protocol, preset, cycles, cycle_deviator, cycle_low_deviator, cycle_strain, axial_stress, b,
-        until_peak;
+        until_peak, membrane_stiffness;
     bool no_plots = false, quiet = false, overwrite = false, version = false;
 };
 
@@ -164,6 +164,9 @@ void declare(CLI::App& app, raw& r) {
     add("--platen-friction", r.platen_friction, "MU",
         "friction coefficient of the platens; a contact takes the smaller of its two pieces", "0");
     add("--membrane-friction", r.membrane_friction, "MU", "the same of the membrane", "0");
+    add("--membrane-stiffness", r.membrane_stiffness, "E t",
+        "modulus times thickness of the rubber, as 3kN/m: what tiles or rings hold by\nstretching, beside the pressure",
+        "0N/m");
     add("--damping", r.damping, "A", "local damping", "0.7");
     add("--seed", r.seed, "N", "of the random packing", "1");
     group = "Breakage";
@@ -433,6 +436,14 @@ options checked_options(const raw& r) {
     if (!r.membrane_friction.empty())
         o.membrane_friction = checked<quantities::ratio>(r.membrane_friction, "--membrane-friction", 0.0, 10.0, true,
                                                          "0 to 10", "0 is the default.");
+    if (!r.membrane_stiffness.empty()) {
+        o.membrane_stiffness =
+            checked<quantities::stiffness>(r.membrane_stiffness, "--membrane-stiffness", 0.0, 1e6, true,
+                                           "0N/m to 1MN/m", "Rubber of 1.5 MPa and 2 mm has 3kN/m.");
+        if (o.membrane_stiffness > 0.0 && o.membrane != "tiles" && o.membrane != "rings")
+            throw input_error("--membrane-stiffness", r.membrane_stiffness, "none with --membrane " + o.membrane,
+                              "Only a wall that is one sheet stretches: --membrane tiles or rings.");
+    }
     if (r.weibull == "none")
         o.weibull = 0.0;
     else if (!r.weibull.empty())
@@ -655,6 +666,7 @@ std::string physics_text(const options& o) {
     line("friction", o.friction);
     line("platen friction", o.platen_friction);
     line("membrane friction", o.membrane_friction);
+    line("membrane stiffness", o.membrane_stiffness, "N/m");
     line("contact force", o.contact_force);
     line("weibull", o.weibull);
     line("damping", o.damping);
@@ -694,6 +706,7 @@ std::vector<std::string> to_arguments(const options& o) {
     add("friction", o.friction);
     add("platen-friction", o.platen_friction);
     add("membrane-friction", o.membrane_friction);
+    add("membrane-stiffness", o.membrane_stiffness, "N/m");
     add("contact-force", o.contact_force);
     if (o.weibull > 0.0)
         add("weibull", o.weibull);

@@ -65,6 +65,7 @@ struct options {
     double inertial_number = 1e-4;          ///< limit in shear
     std::string stiffness = "contact";      ///< what 5.8e6 N/m of Table 1 is that of: "contact" or "series" (a piece)
     double friction = 0.3;                  ///< between pebbles
+    double membrane_stiffness = 0.0;        ///< E t of the membrane (N/m)
     double platen_friction = 0.0;           ///< of the platens
     double membrane_friction = 0.0;         ///< of the membrane
     double damping = 0.7;                   ///< local damping

@@ -35,7 +35,7 @@ test "$(checksum whole)" = "$(checksum pieces)" || { checksum whole; checksum pi
 for path in "undrained --strain 1%" "constant_p --strain 1%" "cyclic --strain 2% --cycles 2 --cycle-strain 0.5%"; do
     name=${path%% *}
     # shellcheck disable=SC2086
-    path_arguments=(--protocol $path --scale 0.2 --confining 1MPa --inertial-number 1e-3 --replacement none --snapshots 0 --no-plots --quiet)
+    path_arguments=(--protocol $path --grain-size circumscribed --scale 0.2 --confining 1MPa --inertial-number 1e-3 --replacement none --snapshots 0 --no-plots --quiet)
     "$program" "${path_arguments[@]}" --threads 1 --out "$name" >"$name.log"
     steps() { tail -n 1 "$name/series.csv" | cut -d, -f "$(head -n 1 "$name/series.csv" | tr , '\n' | grep -n '^steps$' | cut -d: -f 1)"; }
     first() { grep -m 1 ',shear,' "$name/series.csv" | cut -d, -f "$(head -n 1 "$name/series.csv" | tr , '\n' | grep -n '^steps$' | cut -d: -f 1)"; }

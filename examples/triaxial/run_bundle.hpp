@@ -232,6 +232,7 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
             .porosity = o.porosity,
             .rings = std::max(o.rings, 1),
             .tiles_per_ring = o.tiles_per_ring,
+            .membrane_stiffness = o.membrane_stiffness,
             .materials = materials,
             .inertial_number = o.inertial_number,
             .damping = o.damping,

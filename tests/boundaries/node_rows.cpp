@@ -274,3 +274,45 @@ TEST_CASE("the power of a wall is force times velocity of its points", "[boundar
         CHECK(wall.power(loads) == Approx(power).margin(1e-6 * r));
     }
 }
+
+TEST_CASE("a stretched sheet squeezes a cylinder like a hoop, p = E t strain / R, and never pushes", "[boundaries]") {
+    cylinder_settings s = sizes(14, 20);
+    s.stretching = 3000.0;
+    movable wall(s);
+    const double at_start = wall.node_radius(2);
+    for (const double strain : {0.05, 0.2}) {
+        for (int j = 0; j < 280; ++j) wall.node(j) = at_start * (1.0 + strain);
+        wall.moved();
+        for (int f = 2; f < wall.facet_count(); ++f)
+            CHECK(wall.stretching_force(f) / wall.area(f) ==
+                  Approx(3000.0 * strain / (0.06 * (1.0 + strain))).epsilon(1e-12));
+        CHECK(wall.stretching_energy() ==
+              Approx(0.5 * 3000.0 * strain * strain * 0.28 * 40.0 * 0.06 * std::tan(std::numbers::pi / 20))
+                  .epsilon(1e-12));
+    }
+    for (int j = 0; j < 280; ++j) wall.node(j) = 0.9 * at_start;
+    wall.moved();
+    for (int f = 2; f < wall.facet_count(); ++f) CHECK(wall.stretching_force(f) == 0.0);
+    CHECK(wall.stretching_energy() == 0.0);
+    CHECK_THROWS_AS(checked([&] {
+                        s.stretching = -1.0;
+                        return s;
+                    }()),
+                    input_error);
+}
+
+TEST_CASE("what a stretched sheet exerts is the derivative of its energy, whatever its shape", "[boundaries]") {
+    cylinder_settings s = sizes(14, 10);
+    s.stretching = 3000.0;
+    movable wall = crumpled(s, 0.006, 11);
+    const double step = 1e-7;
+    for (const int j : {0, 5, 47, 63, 77, 100, 139}) {
+        const double force = wall.stretching_force(j + 2);
+        wall.node(j) += step, wall.moved();
+        const double more = wall.stretching_energy();
+        wall.node(j) -= 2.0 * step, wall.moved();
+        const double less = wall.stretching_energy();
+        wall.node(j) += step, wall.moved();
+        CHECK(force == Approx((more - less) / (2.0 * step)).epsilon(1e-5).margin(1e-3));
+    }
+}

@@ -16,13 +16,14 @@ namespace {
 
 constexpr double sigma = 2e6;
 
-cylinder_settings sizes(double bending) {
+cylinder_settings sizes(double bending, double stretching = 0.0) {
     cylinder_settings s;
     s.radius = 0.06, s.bottom = -0.14, s.top = 0.14;
     s.rings = 14, s.tiles_per_ring = 10;
     s.smallest_radius = 0.003;
     s.contact_stiffness_floor = 2e6;
     s.bending = bending;
+    s.stretching = stretching;
     return s;
 }
 
@@ -32,8 +33,9 @@ struct bed {
     std::vector<double> rest, stiffness; // radius without load (m), N/m
     std::vector<facet_load> loads;
 
-    explicit bed(double bending)
-        : wall(sizes(bending)), rest(140), stiffness(140), loads(static_cast<std::size_t>(wall.facet_count())) {
+    explicit bed(double bending, double stretching = 0.0)
+        : wall(sizes(bending, stretching)), rest(140), stiffness(140),
+          loads(static_cast<std::size_t>(wall.facet_count())) {
         random_stream random{7, 0};
         for (std::size_t j = 0; j < rest.size(); ++j)
             rest[j] = 0.062 + 0.003 * uniform01(random), stiffness[j] = 2e6 * (1.0 + 3.0 * uniform01(random));
@@ -96,6 +98,22 @@ TEST_CASE("a node that finds nothing behind it is held by its neighbours", "[bou
     CHECK(around - radius(hole) > 0.2e-3);
     CHECK(around - radius(hole) < 5e-3);
     CHECK(b.wall.confining_error(b.loads, sigma) < 1e-6); // what it does not carry they do
+}
+
+TEST_CASE("grains in a stretched sheet carry its pull and the pressure of the cell, which is what the wall reads",
+          "[boundaries]") {
+    bed b(0.0, 1e6);
+    b.go(6000);
+    double pull = 0.0;
+    for (int f = 2; f < b.wall.facet_count(); ++f) {
+        pull += b.wall.stretching_force(f);
+        CHECK(b.loads[static_cast<std::size_t>(f)].force ==
+              Approx(sigma * b.wall.area(f) + b.wall.stretching_force(f)).epsilon(1e-5));
+    }
+    CHECK(pull > 1e4);
+    CHECK(b.wall.lateral_stress(b.loads) == Approx(sigma).epsilon(1e-6));
+    CHECK(b.wall.confining_error(b.loads, sigma) < 1e-6);
+    CHECK(b.wall.confining_rms(b.loads, sigma) < 1e-5);
 }
 
 TEST_CASE("a wall of joined tiles goes where it is told, with its faces", "[boundaries]") {

@@ -27,7 +27,7 @@ using namespace small_test;
 namespace {
 
 template <class B> triaxial_setup<scenes::unbreakable<B>> setup_in(double inertial_number = 1e-3) {
-    return {.grain = shapes::tetrahedron_4(0.02),
+    return {.grain = shapes::tetrahedron_4(circumscribed(0.02)),
             .diameter = 66_mm,
             .height = 75_mm,
             .confining = 200_kPa,
@@ -316,7 +316,7 @@ TEST_CASE("grains break in a box, in cluster and fragments, and its six walls ke
     using policies = scenes::breakable<boundaries::box>;
     policies::replacement weak{};
     weak.bond.tensile_strength *= 0.01, weak.bond.cohesion *= 0.01;
-    const triaxial_setup<policies> s{.grain = shapes::tetrahedron_4(0.02),
+    const triaxial_setup<policies> s{.grain = shapes::tetrahedron_4(circumscribed(0.02)),
                                      .diameter = 66_mm,
                                      .height = 75_mm,
                                      .confining = 200_kPa,

@@ -255,7 +255,7 @@ TEST_CASE("a fracture tells its stage and the strain of its stage") {
     using policies = scenes::breakable<boundaries::solid_strips>;
     policies::replacement weak{};
     weak.bond.tensile_strength *= 0.01, weak.bond.cohesion *= 0.01;
-    triaxial_test<policies> test({.grain = shapes::tetrahedron_4(0.02),
+    triaxial_test<policies> test({.grain = shapes::tetrahedron_4(circumscribed(0.02)),
                                   .diameter = 66_mm,
                                   .height = 75_mm,
                                   .confining = 200_kPa,

@@ -152,6 +152,7 @@ TEST_CASE("every option that decides results changes the fingerprint, and no oth
                                                {"--friction", "0.4"},
                                                {"--grain-size", "circumscribed"},
                                                {"--stiffness", "series"},
+                                               {"--membrane-stiffness", "3kN/m"},
                                                {"--contact-force", "single"},
                                                {"--weibull", "none"},
                                                {"--strength", "30MPa"},

@@ -32,6 +32,7 @@ struct cylinder_settings {
     control::gap_rule gaps{};
     double bending = 3.0; ///< of a sheet: its stiffness against kinks (node_rows.hpp), in sigma_3 times the spacing of
                           ///< its rows, >= 0
+    double stretching = 0.0; ///< of a sheet: E t of the membrane, its modulus times its thickness (N/m), >= 0
 };
 
 /// The same with its defaults filled in. tears_at: default of largest_radius, in radii. Throws input_error, by the name
@@ -55,6 +56,8 @@ inline cylinder_settings checked(cylinder_settings s, double tears_at = 1.6) {
     demand(s.gaps.release > 0.0 && s.gaps.release <= 1.0, "gaps.release", s.gaps.release, "in (0, 1]", "");
     demand(s.bending >= 0.0 && std::isfinite(s.bending), "bending", s.bending, ">= 0",
            "0: each node has its own load.");
+    demand(s.stretching >= 0.0 && std::isfinite(s.stretching), "stretching", s.stretching, ">= 0 N/m",
+           "A rubber membrane of 2 mm has about 3000 N/m; 0: it holds nothing.");
     if (s.largest_gap == 0.0) s.largest_gap = 2.0 * s.smallest_radius;
     demand(s.largest_gap > 0.0, "largest_gap", s.largest_gap, "> 0 m", "0 takes 2 smallest_radius.");
     if (s.largest_step == 0.0) s.largest_step = s.largest_gap;
@@ -78,6 +81,7 @@ inline cylinder_settings cylinder_of(const vessel_settings& s) {
     c.smallest_radius = s.smallest_radius;
     c.largest_gap = s.largest_gap;
     c.contact_stiffness_floor = s.contact_stiffness_floor;
+    c.stretching = s.membrane_stiffness;
     return c;
 }
 

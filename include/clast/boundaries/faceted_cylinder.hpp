@@ -86,7 +86,8 @@ template <moving_unit Unit, class Surface> class faceted_cylinder : public Surfa
         facet_load load;
         double area = 0.0;
     };
-    /// Sums load and area of what moves together into one entry per unit of every ring.
+    /// Sums load, less the pull of a stretched sheet, and area of what moves together into one entry per unit of every
+    /// ring.
     void collect(std::span<const facet_load> loads, std::vector<unit_load>& units) const;
     std::size_t unit_of(std::int32_t facet) const {
         const int j = facet - first_lateral_facet, per_ring = units_around();
@@ -140,6 +141,7 @@ void faceted_cylinder<Unit, Surface>::collect(std::span<const facet_load> loads,
             unit_load& u = units[index(k * per_ring + (per_ring == 1 ? 0 : i))];
             const facet_load& l = loads[index(facet)];
             u.load.force += l.force;
+            if constexpr (Surface::stretches) u.load.force -= this->stretching_force(facet);
             u.load.stiffness += l.stiffness;
             u.load.contacts += l.contacts;
             u.area += this->area(facet);

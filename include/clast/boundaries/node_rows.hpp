@@ -51,6 +51,22 @@ template <class = void> class node_rows : public node_net<> {
     double area(int facet) const {
         return facet < first_lateral_facet ? section() : area_[index(facet - first_lateral_facet)];
     }
+    /// What the stretched sheet exerts on the grains by a node, beyond the pressure (N, inward; 0 without
+    /// cylinder_settings::stretching). The sheet is a net of threads along its rows and up its columns that resist
+    /// stretching alone: with E t for stretching, the width w of sheet that a thread stands for and its length l0 in
+    /// the cylinder that the sheet was at the start, U = E t w (l - l0)^2 / (2 l0) where l > l0, and this is dU/dR.
+    double stretching_force(int facet) const {
+        return facet < first_lateral_facet || pull_.empty() ? 0.0 : pull_[index(facet - first_lateral_facet)];
+    }
+    double stretching_energy() const { return stretching_energy_; } ///< U (J)
+    /// Mean pressure (Pa) that the wall answers to: that of a cell around the sheet, whose own pull is left out.
+    double lateral_stress(std::span<const facet_load> loads) const {
+        return (this->lateral_force(loads) - pull_of_all_) / lateral_area_;
+    }
+    /// By how much that misses a target sigma (Pa, > 0), over sigma.
+    double confining_error(std::span<const facet_load> loads, double sigma) const {
+        return std::abs(this->lateral_force(loads) - pull_of_all_ - sigma * lateral_area_) / (sigma * lateral_area_);
+    }
 
     // --- motion ----------------------------------------------------------------------------------------------------
     /// Moves all facets by dt (s). Throws run_error if the membrane tears or the platens meet.
@@ -93,8 +109,10 @@ template <class = void> class node_rows : public node_net<> {
     template <class A> void archive(A& a) {
         facet_rings<>::archive(a);
         a(flat_, cosine_, sine_, at_, quads_, strip_least_, per_spacing_, area_);
-        if constexpr (A::reading) place();
+        if constexpr (A::reading) place(), stretch();
     }
+
+    static constexpr bool stretches = true; ///< it has a use for cylinder_settings::stretching
 
   protected:
     /// A cylinder at rest of so many rows, whatever the settings say of them. Throws run_error where the height or the
@@ -131,9 +149,14 @@ template <class = void> class node_rows : public node_net<> {
     }
 
     void refresh();
+    /// Finds what the sheet exerts because it is longer than it was.
+    void stretch();
     void check_state() const;
 
     std::vector<double> area_; // per node
+    // what follows from the places of nodes
+    std::vector<double> pull_; // per node; empty without stretching
+    double pull_of_all_ = 0.0, stretching_energy_ = 0.0;
 };
 
 // --- implementation ------------------------------------------------------------------------------------------------
@@ -234,6 +257,38 @@ template <class X> void node_rows<X>::refresh() {
         }
     lateral_area_ = 0.0;
     for (const double a : area_) lateral_area_ += a;
+    stretch();
+}
+
+template <class X> void node_rows<X>::stretch() {
+    if (set_.stretching <= 0.0) return;
+    pull_.assign(apothem_.size(), 0.0);
+    stretching_energy_ = 0.0;
+    // a thread between two nodes: f(stretch) -> its pull, as long as it is stretched
+    const auto pull = [&](double length, double at_start, double width) {
+        const double longer = length - at_start;
+        if (longer <= 0.0) return 0.0;
+        stretching_energy_ += 0.5 * set_.stretching * width * longer * longer / at_start;
+        return set_.stretching * width * longer / at_start;
+    };
+    const double rise = spacing(), rise_at_start = (set_.top - set_.bottom) / rings_;
+    const double side_at_start = regular_width(around_, set_.radius);
+    for (int k = 0; k < rings_; ++k)
+        for (int i = 0; i < around_; ++i) {
+            const int left = dir_.wrap(i - 1);
+            const std::size_t a = tile(k, left), b = tile(k, i);
+            const double x = at_[b].x - at_[a].x, y = at_[b].y - at_[a].y, side = std::sqrt(x * x + y * y);
+            const double in_row = pull(side, side_at_start, rise_at_start) / side;
+            pull_[a] -= in_row * (x * cosine_[index(left)] + y * sine_[index(left)]);
+            pull_[b] += in_row * (x * cosine_[index(i)] + y * sine_[index(i)]);
+            if (k + 1 == rings_) continue;
+            const std::size_t above = tile(k + 1, i);
+            const double step = apothem_[above] - apothem_[b], slope = std::sqrt(rise * rise + step * step);
+            const double in_column = pull(slope, rise_at_start, side_at_start) * step / slope;
+            pull_[b] -= in_column, pull_[above] += in_column;
+        }
+    pull_of_all_ = 0.0;
+    for (const double f : pull_) pull_of_all_ += f;
 }
 
 template <class X> void node_rows<X>::check_state() const {

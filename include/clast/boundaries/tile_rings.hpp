@@ -153,6 +153,7 @@ template <class = void> class tile_rings : public facet_rings<> {
 
   protected:
     /// Default of largest_radius, in radii.
+    static constexpr bool stretches = false; ///< rectangles do not hang together
     static constexpr double tears_at = 1.6;
     /// Tiles that share a pebble pass its whole load to each other over a fraction of a micrometre.
     static constexpr bool solved_together = true;

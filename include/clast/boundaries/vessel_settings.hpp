@@ -18,6 +18,7 @@ struct vessel_settings {
     double contact_stiffness_floor = 0.0; ///< stiffness of one pebble-wall contact, least K of a servo (N/m), > 0
     double platen_stiffness = 3.2e8;      ///< of the piece (N/m), paper Table 1
     double wall_stiffness = 3.2e6;        ///< of the piece of a membrane (N/m), paper Table 1
+    double membrane_stiffness = 0.0;      ///< E t of a sheet that stretches (N/m), >= 0
 };
 
 } // namespace clast::boundaries

@@ -80,6 +80,7 @@ template <class P> struct triaxial_setup {
     double porosity = 0.58;                        ///< as packed, counted with pebble volumes (paper section 2.3)
     int rings = 36;                                ///< V_sec; solid strips ignore it
     int tiles_per_ring = 20;                       ///< H_part
+    double membrane_stiffness = 0.0;               ///< E t of a membrane of one sheet (tiles, ring_walls; N/m)
     materials_of<typename P::contact> materials{}; ///< table_1, or contacts_of_law for a law of one's own
     double inertial_number = 1e-4;                 ///< largest in shear (paper section 2.2)
     double damping = 0.7;                          ///< local damping
@@ -207,6 +208,9 @@ template <class P> class triaxial_test {
         demand(s.safety > 0.0 && s.safety <= 1.0, "safety", s.safety, "above 0, at most 1", "0.8 is the default.");
         demand(s.inertial_number > 0.0 && s.inertial_number <= 1e-2, "inertial_number", s.inertial_number,
                "above 0, at most 0.01", "1e-4 is quasi-static; 1e-3 is the usual upper bound.");
+        constexpr bool stretches = requires { requires boundary_type::stretches; };
+        demand(stretches || s.membrane_stiffness == 0.0, "membrane_stiffness (N/m)", s.membrane_stiffness,
+               "0 with this boundary", "Only a wall that is one sheet stretches: tiles, ring_walls.");
         demand(s.vessel >= 1.2, "vessel", s.vessel, "at least 1.2", "1.8 is the default.");
         demand(s.threads >= 1, "threads", s.threads, ">= 1", "Take available_threads().");
         return s;
@@ -254,6 +258,7 @@ template <class P> class triaxial_test {
         m.rings = s.rings;
         m.tiles_per_ring = s.tiles_per_ring;
         const grain_sizes grains = sizes(s);
+        m.membrane_stiffness = s.membrane_stiffness;
         m.smallest_radius = grains.smallest_radius;
         m.largest_radius = grains.largest_radius;
         // Steps up to a grain, or a quarter of the radius in a slender specimen, where a tile that finds no grain would
