@@ -235,6 +235,17 @@ TEST_CASE("a specimen of another run brings its grains, size, porosity and seed,
     REQUIRE(has(refusal({"--from", place.string(), "--shape", "4B"}), "Allowed: 14B"));
     REQUIRE(has(refusal({"--from", place.string(), "--grading", "curve.txt"}), "Allowed: nothing"));
     REQUIRE(has(refusal({"--from", place.string(), "--protocol", "prepare"}), "prepared already"));
+    // a cube is no cylinder
+    REQUIRE(has(refusal({"--from", place.string(), "--protocol", "true_triaxial"}), "--membrane box"));
+    {
+        std::ofstream file(place / arguments_file);
+        for (const std::string& a :
+             to_arguments(read({"--scale", "0.3", "--membrane", "box", "--protocol", "prepare"})))
+            file << a << '\n';
+    }
+    REQUIRE(read({"--from", place.string(), "--protocol", "true_triaxial"}).membrane == "box");
+    REQUIRE(read({"--from", place.string(), "--membrane", "box"}).scale == 0.3);
+    REQUIRE(has(refusal({"--from", place.string()}), "Say --membrane box"));
     fs::remove_all(place);
 }
 
