@@ -158,12 +158,21 @@ summary_numbers summarise(std::span<const sample> rows) {
     const double sign = first.stage == "extend" ? -1.0 : 1.0; // of a strength
     double error_sum = 0.0, late_q = 0.0, late_contacts = 0.0, largest_strain = 0.0;
     for (const sample* s : shear) largest_strain = std::max(largest_strain, std::abs(s->axial_strain));
-    for (const sample* s : shear) {
+    // the residual is a part of the work of its stage: at a turning point there is none yet
+    std::vector<double> work_done(shear.size(), 0.0);
+    double most_work = 0.0, work_before = 0.0;
+    for (std::size_t k = 0; k < shear.size(); ++k) {
+        if (k == 0 || shear[k]->stage != shear[k - 1]->stage) work_before = shear[k]->boundary_work;
+        work_done[k] = std::abs(shear[k]->boundary_work - work_before);
+        most_work = std::max(most_work, work_done[k]);
+    }
+    for (const sample* const& s : shear) {
         if (sign * s->q > sign * n.peak_q.value) n.peak_q = {s->q, s->axial_strain, s->p};
         if (s->pore_pressure > n.peak_pore_pressure.value)
             n.peak_pore_pressure = {s->pore_pressure, s->axial_strain, s->p};
         if (s->void_ratio < n.e_min.value) n.e_min = {s->void_ratio, s->axial_strain, s->p};
-        n.max_energy_residual = std::max(n.max_energy_residual, std::abs(s->energy_residual));
+        if (work_done[static_cast<std::size_t>(&s - shear.data())] >= 0.02 * most_work)
+            n.max_energy_residual = std::max(n.max_energy_residual, std::abs(s->energy_residual));
         n.max_inertial_number = std::max(n.max_inertial_number, s->inertial_number);
         if (sign * s->q_contacts > sign * n.peak_q_contacts) n.peak_q_contacts = s->q_contacts;
         if (std::abs(s->q) > 0.1 * s->sigma_3)

@@ -79,7 +79,7 @@ struct summary_numbers {
     double axial_strain_end = 0.0;
     double mean_confining_error = 0.0;
     double max_confining_error = 0.0;
-    double max_energy_residual = 0.0; ///< largest magnitude
+    double max_energy_residual = 0.0; ///< largest magnitude where the stage has done 2 % of the most work of one
     double max_inertial_number = 0.0;
     double median_overlap_over_r = 0.0; ///< largest median of a row, of all stages
     double max_overlap_over_r = 0.0;    ///< largest of all rows

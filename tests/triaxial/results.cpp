@@ -271,3 +271,22 @@ TEST_CASE("a run that was stopped by an error has its summary, and says that it 
     REQUIRE(j["unfinished"]["when"] == "step 7");
     REQUIRE(j["shear"]["peak_q_Pa"].get<double>() == Approx(4e6)); // of what there is
 }
+
+TEST_CASE("the energy residual counts where the stage has done some work, not at turning points") {
+    std::vector<sample> rows;
+    const auto add = [&](const char* stage, double work, double residual) {
+        sample s;
+        s.stage = stage, s.boundary_work = work, s.energy_residual = residual;
+        s.axial_strain = 0.001 * static_cast<double>(rows.size());
+        rows.push_back(s);
+    };
+    add("shear", 100.0, 0.0);
+    add("shear", 100.5, 3.0); // 0.5 J of 50
+    add("shear", 150.0, -0.004);
+    add("unload", 150.0, 0.0);
+    add("unload", 149.6, 2.0);
+    add("unload", 140.0, 0.003);
+    REQUIRE(summarise(rows).max_energy_residual == 0.004);
+    add("unload", 139.0, -0.01);
+    REQUIRE(summarise(rows).max_energy_residual == 0.01);
+}
