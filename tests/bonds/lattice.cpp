@@ -371,3 +371,43 @@ TEST_CASE("a shape whose bonds leave a piece apart is refused") {
     const shape apart = make_shape("apart", {{{0, 0, 0}, 0.004}, {{0.008, 0, 0}, 0.004}, {{0.03, 0, 0}, 0.004}});
     CHECK_THROWS_AS(lattice(apart, parallel{}, density), input_error);
 }
+
+TEST_CASE("the bound of loads is never below what a bond carries, and not above it by more than some thirty times") {
+    random_stream random{23, 1};
+    for (const shape& s : {shapes::tetrahedron_4(0.02), shapes::apollonian_14(0.02)})
+        for (const likeness like : {likeness{}, likeness{0.5, 1.3}}) {
+            const lattice l(s, parallel{}, density);
+            const double strongest = like.scale * like.scale; // of equal stress
+            double nearest = 1e9, farthest = 0.0;
+            for (int k = 0; k < 200; ++k) {
+                std::vector<pebble_load> load(l.size());
+                for (std::size_t i = 0; i < l.size(); ++i)
+                    if (uniform(random, 0.0, 1.0) < (k % 2 == 0 ? 0.4 : 1.0))
+                        load[i] = {uniform(random, 0.0, 1000.0) * strongest * direction(random),
+                                   uniform(random, 0.0, 1.0) * strongest * direction(random)};
+                const vec3 spin = (k % 3 == 0 ? 2000.0 : 0.0) * direction(random);
+                const std::vector<state> born = l.statics(load, orientation(random), spin, like);
+                double worst = 0.0;
+                for (std::size_t e = 0; e < born.size(); ++e) {
+                    worst = std::max(worst, l.load_ratio(e, born[e], like));
+                    // of a bond of that size
+                    const constants own =
+                        constants_of(parallel{}, like.scale * l.radius[static_cast<std::size_t>(l.ends[e].a)],
+                                     like.scale * l.radius[static_cast<std::size_t>(l.ends[e].b)]);
+                    CHECK(l.load_ratio(e, born[e], like) == Approx(load_ratio(own, born[e])).epsilon(1e-9));
+                }
+                const double bound = l.load_bound(load, spin, like);
+                CHECK(bound >= worst);
+                if (worst > 0.0)
+                    nearest = std::min(nearest, bound / worst), farthest = std::max(farthest, bound / worst);
+            }
+            CHECK(nearest < 6.0);
+            CHECK(farthest < 40.0);
+        }
+    // a single force that presses two pebbles: nearly met
+    const lattice pair(make_shape("pair", {{{0, 0, 0}, 0.005}, {{0.01, 0, 0}, 0.005}}), parallel{}, density);
+    const std::vector<pebble_load> pull{{{-1000.0, 0, 0}, {}}, {{1000.0, 0, 0}, {}}};
+    const double carried = pair.load_ratio(0, pair.statics(pull, {}, {})[0]);
+    CHECK(carried == Approx(1000.0 / (3.0e7 * 3.14159265 * 0.005 * 0.005)).epsilon(1e-6));
+    CHECK(pair.load_bound(pull, {}) >= carried);
+}

@@ -281,6 +281,31 @@ TEST_CASE("the flags of failure are those of the stresses, for any state") {
     CHECK((broken > 2000 && broken < 18000));
 }
 
+TEST_CASE("the load ratio grows with the load, and a bond fails where it is 1, with friction of the bond, too") {
+    random_stream random{5, 1};
+    for (const double angle : {0.0, 0.5}) {
+        parallel material;
+        material.friction_angle = angle;
+        const constants c = constants_of(material, 0.004, 0.005);
+        int tension = 0, shear = 0;
+        for (int k = 0; k < 2000; ++k) {
+            state s{uniform(random, -2000.0, 1000.0), 1500.0 * uniform(random, 0.0, 1.0) * direction(random),
+                    uniform(random, -1.0, 1.0), uniform(random, 0.0, 1.0) * direction(random)};
+            const double ratio = load_ratio(c, s);
+            if (!(ratio > 0.0)) continue; // pressed without limit
+            const auto times = [&s](double x) { return state{x * s.n, x * s.v, x * s.mt, x * s.mb}; };
+            CHECK(load_ratio(c, times(3.0)) == Approx(3.0 * ratio).epsilon(1e-12));
+            const failure_flags below = failing(c, times((1.0 - 1e-9) / ratio)),
+                                at = failing(c, times((1.0 + 1e-9) / ratio));
+            CHECK((!below.tension && !below.shear));
+            CHECK((at.tension || at.shear));
+            tension += at.tension, shear += at.shear;
+            if (angle == 0.0) CHECK(ratio == Approx(utilisation(c, s)).epsilon(1e-12));
+        }
+        CHECK((tension > 100 && shear > 100));
+    }
+}
+
 TEST_CASE("a factor scales both strengths of a bond, and nothing else") {
     random_stream random{6, 5};
     parallel m, strong;

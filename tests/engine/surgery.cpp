@@ -15,6 +15,7 @@
 #include <clast/engine/engine.hpp>
 #include <clast/io/archive.hpp>
 #include <clast/measure/digest.hpp>
+#include <clast/measure/pebbles.hpp>
 #include <clast/measure/stress.hpp>
 
 #include <catch.hpp>
@@ -80,6 +81,10 @@ template <class P> void check_tables(const engine<P>& e) {
         }
     }
     CHECK(next == s.pebble_count());
+    std::vector<int> met(s.pebble_count(), 0); // every pebble has a number of its own
+    for (std::size_t p = 0; p < met.size(); ++p)
+        ++met.at(static_cast<std::size_t>(s.number_of_pebble(static_cast<std::int32_t>(p))));
+    CHECK(met == std::vector<int>(met.size(), 1));
     CHECK(seen == std::vector<int>(s.grain_count(), 1)); // numbers for life
     const auto order = e.state().pair_order();
     const auto& pairs = e.heavy_contacts().pairs;
@@ -138,14 +143,15 @@ struct in_stages {
     }
 };
 /// Balls for some steps, bonded, and then rigid again, in so many parts.
-struct thaws {
+template <bool Across> struct thaws {
     static constexpr bool replaces = true, makes_bonds = true;
     struct grain_state {
         std::int32_t frozen = 0;
     };
     bonds::parallel bond;
     int span = 30;
-    std::int32_t parts = 2;
+    std::int32_t parts = Across ? 3 : 2;
+    bool across = Across; ///< every so manieth pebble is one of a part; else runs of them
 
     int looks_every() const { return 1; }
     template <class View> std::optional<replacements::nothing> wants(const View& clump) const {
@@ -159,14 +165,22 @@ struct thaws {
     }
     template <class Surgery> void again(std::int32_t grain, Surgery& surgery) const {
         const auto n = static_cast<std::int32_t>(surgery.shape_of(grain).pebbles.size());
+        ++surgery.state(grain).frozen;
+        if (across) {
+            std::vector<std::int32_t> part;
+            for (std::int32_t k = 0; k < n; ++k) part.push_back((k + 1) % parts);
+            return surgery.freeze(grain, part);
+        }
         std::vector<replacements::pebble_run> runs;
         for (std::int32_t k = 0; k < parts; ++k) runs.push_back({k * n / parts, (k + 1) * n / parts - k * n / parts});
-        ++surgery.state(grain).frozen;
         surgery.freeze(grain, runs);
     }
 };
 struct thawing : scenes::breakable<> {
-    using replacement = thaws;
+    using replacement = thaws<false>;
+};
+struct thawing_across : scenes::breakable<> {
+    using replacement = thaws<true>;
 };
 struct staged : scenes::breakable<> {
     using replacement = in_stages;
@@ -514,6 +528,13 @@ TEST_CASE("threads and checkpoints make no difference to what is split, remember
         CHECK(digest_of(one) == digest_of(crushed<thawing>(2, true)));
         CHECK(to_bytes(one) == to_bytes(crushed<thawing>(3, true)));
     }
+    SECTION("balls that freeze in parts across their order") {
+        const engine<thawing_across> one = crushed<thawing_across>(1, false);
+        CHECK(one.grains.numbers.size() == one.grains.pebble_count());
+        CHECK(digest_of(one) == digest_of(crushed<thawing_across>(3, false)));
+        CHECK(digest_of(one) == digest_of(crushed<thawing_across>(2, true)));
+        CHECK(to_bytes(one) == to_bytes(crushed<thawing_across>(3, true)));
+    }
     SECTION("then balls, loose and bonded") {
         const engine<staged> one = crushed<staged>(1, false);
         CHECK(one.totals().replaced > 20);
@@ -564,11 +585,11 @@ TEST_CASE("a clump at rest between platens goes on in halves, and the ledger sta
 }
 
 TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the ledger stays closed") {
-    for (const std::int32_t parts : {1, 2, 5})
-        for (const double strength : {1e6, 0.02}) { // of the bonds: many break in the second case
+    for (const std::int32_t parts : {1, 2, -2, 5, -5}) // runs, or across
+        for (const double strength : {1e6, 0.02}) {    // of the bonds: many break in the second case
             auto settings = scenes::settings<thawing>(1.0, strength);
             settings.scheme.damping = 0.0;
-            settings.replacement.parts = parts;
+            settings.replacement.parts = std::abs(parts), settings.replacement.across = parts < 0;
             engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(circumscribed(0.02)));
             while (e.breakage().balls.empty()) e.step();
             e.step(20);
@@ -579,18 +600,30 @@ TEST_CASE("balls that freeze keep mass, momentum and angular momentum, and the l
             };
             const double held = sum();
             const std::vector<pebble_pair> carried = s.asleep;
+            const std::vector<clump_pebble> was = s.grains.pebbles;
             REQUIRE((s.broken.balls.size() == 28 && s.light.size() > 0));
             rooms::surgery<scene<thawing>> room(s);
             for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
             room.finish();
-            REQUIRE((s.broken.balls.empty() && s.grains.grain_count() == 2 * static_cast<std::size_t>(parts)));
+            REQUIRE(
+                (s.broken.balls.empty() && s.grains.grain_count() == 2 * static_cast<std::size_t>(std::abs(parts))));
+            CHECK(s.asleep.empty());
+            std::vector<std::int32_t> place(was.size()); // of pebbles by their numbers
+            for (std::int32_t p = 0; p < 28; ++p) {
+                const auto number = static_cast<std::size_t>(s.grains.number_of_pebble(p));
+                place[number] = p;
+                CHECK((was[number].x == s.position(p) && was[number].radius == s.radius(p)));
+                CHECK(s.grains.grains[s.at(s.grains.mother[s.at(p)])].origin == (number < 14 ? 0 : 1));
+            }
+            CHECK(std::is_sorted(place.begin(), place.end()) == (parts > 0));
             const total after = total_of(s);
             CHECK(after.mass == Approx(before.mass).epsilon(1e-14));
             CHECK(norm(after.momentum - before.momentum) < 1e-13 * norm(before.momentum));
             CHECK(norm(after.angular - before.angular) < 1e-12 * norm(before.angular));
             CHECK(after.energy < before.energy);
             double contacts = 0.0; // between parts, which no list has yet
-            for (const pebble_pair& p : carried) {
+            for (const pebble_pair& named : carried) {
+                const pebble_pair p{place[s.at(named.i)], place[s.at(named.j)]};
                 if (s.grains.body_of(p.i) == s.grains.body_of(p.j)) continue;
                 const double depth = s.radius(p.i) + s.radius(p.j) - norm(s.position(p.i) - s.position(p.j));
                 contacts += s.settings.grain_contact.stored({0, 0, 1, depth, 1, 1}, {});
@@ -637,6 +670,76 @@ TEST_CASE("contacts of balls that freeze go on with their histories") {
     CHECK(kept > 0);
 }
 
+TEST_CASE("contacts between fragments of one grain go on with their histories when pebbles exchange places") {
+    auto settings = scenes::settings<thawing>(1.0, 0.02); // many bonds break
+    settings.scheme.damping = 0.0;
+    settings.replacement.parts = 3, settings.replacement.across = true;
+    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+    while (e.breakage().balls.empty()) e.step();
+    e.step(20);
+    scene<thawing> s = e.state();
+    rooms::renew_lists(s);
+    std::size_t number = 0;
+    for (std::size_t k = 0; k < s.light.size(); ++k) {
+        s.light.history[k] = {1.0 + static_cast<double>(number++), 2.0, 3.0};
+        s.light.rows[k].force = {4.0, static_cast<double>(number), 5.0}, s.light.rows[k].normal = {0.6, 0.8, 0.0};
+    }
+    const auto was = s.light;
+    rooms::surgery<scene<thawing>> room(s);
+    for (std::int32_t g = 1; g >= 0; --g) settings.replacement.again(g, room);
+    room.finish();
+    CHECK(std::is_sorted(s.light.pairs.begin(), s.light.pairs.end(), s.pair_order()));
+    const auto named = [&](const pebble_pair& p) {
+        return pebble_pair{s.grains.number_of_pebble(p.i), s.grains.number_of_pebble(p.j)};
+    };
+    std::size_t turned = 0, kept = 0;
+    for (std::size_t k = 0; k < s.light.size(); ++k) {
+        pebble_pair p = named(s.light.pairs[k]);
+        const double side = p.i < p.j ? 1.0 : -1.0;
+        if (side < 0.0) std::swap(p.i, p.j);
+        const std::size_t at = scenes::position(was, p);
+        REQUIRE(at < was.size());
+        const auto &h = s.light.history[k], &h0 = was.history[at];
+        CHECK((h.x == side * h0.x && h.y == side * h0.y && h.z == side * h0.z));
+        CHECK(s.light.rows[k].force == side * was.rows[at].force);
+        CHECK(s.light.rows[k].normal == side * was.rows[at].normal);
+        turned += side<0.0, kept += side> 0.0;
+    }
+    CHECK((turned > 2 && kept > 2));
+    const auto remembered = s.light;
+    rooms::renew_lists(s); // and on into the list of clumps
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < s.heavy.size(); ++k) {
+        const std::size_t at = scenes::position(remembered, s.heavy.pairs[k]);
+        CHECK(s.heavy.history[k].x == (at < remembered.size() ? remembered.history[at].x : 0.0));
+        found += at < remembered.size();
+    }
+    CHECK(found > 4);
+}
+
+TEST_CASE("pictures name pebbles, mothers and fragments by numbers that stay when a grain freezes across its pebbles") {
+    auto settings = scenes::settings<thawing>(1.0, 1e6);
+    settings.replacement.parts = 2, settings.replacement.across = true;
+    engine<thawing> e = scenes::collision(settings);
+    while (e.breakage().balls.empty()) e.step();
+    const auto before = measure::pebbles_of(e, {});
+    std::vector<vec3> reference;
+    for (const pebble_view& v : before) reference.push_back(v.position);
+    while (!e.breakage().balls.empty()) e.step();
+    REQUIRE(e.grains.grain_count() == 4);
+    check_tables(e);
+    CHECK(e.grains.numbers == std::vector<std::int32_t>{1, 3, 0, 2, 5, 7, 4, 6}); // part 0 comes first
+    const auto after = measure::pebbles_of(e, reference);
+    const double way = 40 * e.dt() * 3.0;
+    for (std::size_t n = 0; n < 8; ++n) {
+        CHECK(norm(after[n].position - before[n].position) < way);
+        CHECK(norm(after[n].displacement - (after[n].position - before[n].position)) == 0.0);
+        CHECK((before[n].grain == static_cast<int>(n / 4) && after[n].grain == static_cast<int>(n / 4)));
+        CHECK(before[n].fragment == static_cast<int>(n / 4 * 4));
+        CHECK(after[n].fragment == static_cast<int>(n / 4 * 4 + n % 2)); // the least number in it
+    }
+}
+
 TEST_CASE("surgery refuses what it cannot do, with an error") {
     engine<staged> e = scenes::collision(scenes::settings<staged>(never));
     scene<staged> s(e.settings, e.grains, e.boundary, {});
@@ -660,6 +763,13 @@ TEST_CASE("surgery refuses what it cannot do, with an error") {
     CHECK_THROWS_AS(room.release(1), input_error);
     CHECK_THROWS_AS(room.freeze(1, runs{{0, 2}}), input_error);
     CHECK_THROWS_AS(room.freeze(0, runs{{0, 4}}), input_error); // a clump
+    using numbers = std::vector<std::int32_t>;
+    CHECK_THROWS_AS(room.freeze(1, numbers{0, 1, 0}), input_error);
+    CHECK_THROWS_AS(room.freeze(1, numbers{0, 2, 0, 0}), input_error);
+    CHECK_THROWS_AS(room.freeze(1, numbers{1, 1, 1, 1}), input_error);
+    CHECK_THROWS_AS(room.freeze(1, numbers{0, 1, -1, 0}), input_error);
+    CHECK_THROWS_AS(room.freeze(1, numbers{0, 1, 4, 0}), input_error);
+    CHECK_THROWS_AS(room.freeze(0, numbers{0, 1, 0, 0}), input_error); // a clump
     CHECK_THROWS_AS(room.bond(1, std::vector<bonds::state>(5), 1.0), input_error);
     room.bond(1, std::vector<bonds::state>(6), 1.0);
     room.split(0, runs{{0, 1}, {1, 3}});

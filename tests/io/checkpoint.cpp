@@ -112,7 +112,7 @@ TEST_CASE("another format version and another byte order are told apart") {
     std::string whole = read(f.file());
     whole[12] = 77;
     write(f.file(), whole);
-    REQUIRE(has(refusal(f.file()), "has format version 77, this program reads version 4"));
+    REQUIRE(has(refusal(f.file()), "has format version 77, this program reads version 5"));
     std::swap(whole[8], whole[11]);
     std::swap(whole[9], whole[10]);
     write(f.file(), whole);

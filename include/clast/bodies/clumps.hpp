@@ -29,6 +29,10 @@ struct grain {
     std::int32_t id = 0;             ///< its number for life; its place in the table grows as others are split
     double scale = 1.0;              ///< its size over that of its shape
     double density_ratio = 1.0;      ///< its density over that of the specimen
+    /// The number for life of the grain whose bonds it has and by which its strength scatters: its own, or where it was
+    /// made of balls (clumps::freeze) that of the grain that had become these.
+    std::int32_t origin = 0;
+    std::int32_t lost = 0; ///< bonds that its origin had lost when it froze
 
     static constexpr std::int32_t is_whole = -1; ///< a clump
     static constexpr std::int32_t is_loose = -2; ///< balls that no bond joins
@@ -65,6 +69,10 @@ struct clumps {
     std::vector<std::uint8_t>
         materials; ///< per pebble, for laws that read them; those behind its end are of material 0
 
+    /// Per pebble its number for life, which is its place as long as no grain has been cut across the order of its
+    /// pebbles; empty until then.
+    std::vector<std::int32_t> numbers;
+
     /// What clumps of one shape have in common, at scale 1; made with the first grain of it, so shapes and density must
     /// not change after that.
     struct constants {
@@ -79,6 +87,10 @@ struct clumps {
     const shape& shape_of(const grain& g) const { return shapes[static_cast<std::size_t>(g.shape)]; }
     /// Number of a grain for reports: it stays when others are cut into parts.
     std::int32_t number_of(std::size_t g) const { return grains[g].id; }
+    /// Number of a pebble for reports: it stays when places are exchanged.
+    std::int32_t number_of_pebble(std::int32_t pebble) const {
+        return numbers.empty() ? pebble : numbers[static_cast<std::size_t>(pebble)];
+    }
     bool is_clump(std::size_t g) const { return grains[g].cluster == grain::is_whole; }
     /// Number of the body that a pebble is when it moves on its own.
     std::size_t ball(std::int32_t pebble) const { return grains.size() + static_cast<std::size_t>(pebble); }
@@ -116,7 +128,7 @@ struct clumps {
         const auto id = static_cast<std::int32_t>(grains.size());
         const shape& s = shapes[static_cast<std::size_t>(shape_index)];
         note_shapes();
-        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id, scale});
+        grains.push_back({static_cast<std::int32_t>(pebbles.size()), shape_index, grain::is_whole, id, scale, 1.0, id});
         for (const shape_pebble& p : s.pebbles) {
             pebbles.push_back({centre + rotate(q, scale * p.offset), scale * p.radius});
             mother.push_back(id);
@@ -181,7 +193,9 @@ struct clumps {
             moved.push_back({centre, momentum / mass, spin_of(form.to_input_frame, angular, inverse), 1.0 / mass});
             lost -= 0.5 * norm2(momentum) / mass + rotational_energy(form.to_input_frame, angular, inverse);
         }
+        const std::int32_t origin = grains[g].origin;
         divide(g, parts, 1.0);
+        for (std::size_t k = 0; k < parts.size(); ++k) grains[g + k].origin = origin;
         for (std::size_t k = 0; k < parts.size(); ++k) motion[g + k] = moved[k], turning[g + k] = turned[k];
         return lost;
     }
@@ -312,7 +326,7 @@ struct clumps {
     }
 
     template <class A> void archive(A& a) {
-        a(shapes, density, of_shape, grains, pebbles, mother, owner, motion, turning, losses, materials);
+        a(shapes, density, of_shape, grains, pebbles, mother, owner, motion, turning, losses, materials, numbers);
     }
 
   private:
@@ -340,8 +354,9 @@ struct clumps {
         open(grains), open(motion), open(turning), open(losses);
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const std::int32_t id = k == 0 ? whole.id : static_cast<std::int32_t>(before + k - 1);
-            grains[g + k] = {whole.first + parts[k].first, parts[k].shape, grain::is_whole, id, scale,
-                             whole.density_ratio};
+            grains[g + k] = {
+                whole.first + parts[k].first, parts[k].shape, grain::is_whole, id, scale, whole.density_ratio,
+                k == 0 ? whole.origin : id};
             const index_range own = pebbles_of(g + k);
             for (std::size_t p = own.begin; p < own.end; ++p) mother[p] = owner[p] = static_cast<std::int32_t>(g + k);
         }

@@ -142,6 +142,10 @@ class cluster_pool {
     state get(std::size_t cluster, std::size_t bond) const {
         return scaled(carried(seat_of(cluster), bond), like(cluster));
     }
+    /// Load of a bond over its strength (load_ratio): it fails at 1.
+    double load_of(std::size_t cluster, std::size_t bond) const {
+        return load_ratio(shape_.bond[bond], carried(seat_of(cluster), bond)) / strength_[seat_of(cluster)];
+    }
     /// Elastic energy in the bonds of a cluster (J).
     double energy(std::size_t cluster) const {
         double e = 0.0;

@@ -2,6 +2,7 @@
 // The bonds of a whole shape as one linear system: stiffness matrix, highest frequency, static solution.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -28,16 +29,18 @@ struct bond_arms {
 /// A shape held together by parallel bonds, in its body frame, at scale 1. Made once per shape and material; grains of
 /// every size share it.
 struct lattice {
-    std::vector<constants> bond;  ///< per bond of the shape
-    std::vector<shape_bond> ends; ///< pebble indices
-    std::vector<vec3> normal;     ///< from a to b, body frame
-    std::vector<bond_arms> arm;   ///< radius plus half of the gap that a shape may leave: they add up to the distance,
-                                  ///< or a bond would turn its grain
-    std::vector<double> radius;   ///< per pebble (m)
-    std::vector<double> mass;     ///< per pebble (kg)
-    std::vector<double> inertia;  ///< per pebble, 2/5 m r^2 (kg m^2)
-    std::vector<vec3> offset;     ///< per pebble, body frame (m)
-    square_matrix pseudo_inverse; ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
+    std::vector<constants> bond;   ///< per bond of the shape
+    std::vector<shape_bond> ends;  ///< pebble indices
+    std::vector<vec3> normal;      ///< from a to b, body frame
+    std::vector<bond_arms> arm;    ///< radius plus half of the gap that a shape may leave: they add up to the distance,
+                                   ///< or a bond would turn its grain
+    std::vector<double> radius;    ///< per pebble (m)
+    std::vector<double> mass;      ///< per pebble (kg)
+    std::vector<double> inertia;   ///< per pebble, 2/5 m r^2 (kg m^2)
+    std::vector<vec3> offset;      ///< per pebble, body frame (m)
+    std::vector<double> per_force; ///< per pebble: at most so much does a force on it load any bond (load_ratio per N)
+    std::vector<double> per_moment; ///< the same of a moment (per N m)
+    square_matrix pseudo_inverse;   ///< of the 6n x 6n bond stiffness (order: force and moment of pebble 0, 1, ...)
     double highest_frequency = 0.0; ///< largest eigenfrequency with all bonds intact (rad/s)
     int stiffness_power = 0;        ///< of the scale, by which stiffnesses of bonds grow (stiffness_reading)
 
@@ -65,6 +68,7 @@ struct lattice {
             arm.push_back({radius[at(b.a)] + half_gap, radius[at(b.b)] + half_gap});
         }
         pseudo_inverse = square_matrix(6 * n);
+        per_force.assign(n, 0.0), per_moment.assign(n, 0.0);
         if (ends.empty()) return;
         std::vector<double> weight(6 * n);
         for (std::size_t i = 0; i < n; ++i)
@@ -86,9 +90,16 @@ struct lattice {
                     pseudo_inverse(i, j) +=
                         weight[i] * modes.axes(i, k) * modes.axes(j, k) * weight[j] / modes.values[k];
         }
+        find_bounds();
     }
 
     std::size_t size() const { return offset.size(); }
+
+    /// Load of a bond over the strength of its material (bonds::load_ratio), for a state of a grain of another size and
+    /// density.
+    double load_ratio(std::size_t e, const state& s, likeness to = {}) const {
+        return to.scale * to.scale * to.density * bonds::load_ratio(bond[e], scaled(s, to.inverse()));
+    }
 
     /// Bond stiffness matrix, built by the bond's own law from unit displacements.
     square_matrix stiffness() const {
@@ -115,6 +126,17 @@ struct lattice {
                 }
         }
         return k;
+    }
+
+    /// Upper bound of the load_ratio of any bond under such a load in statics(): found without solving for bonds, up to
+    /// some twenty times too high.
+    double load_bound(const std::vector<pebble_load>& load, const vec3& spin, likeness to = {}) const {
+        double sum = 0.0;
+        const double turning = to.scale * to.density * norm2(spin) * (to.scale * to.scale * to.scale);
+        for (std::size_t i = 0; i < size(); ++i)
+            sum += per_force[i] * (norm(load[i].force) + turning * mass[i] * norm(offset[i])) +
+                   per_moment[i] / to.scale * norm(load[i].moment);
+        return sum / (to.scale * to.scale);
     }
 
     /// Bond states (world axes) that hold the intact cluster in equilibrium under loads on its pebbles (world axes)
@@ -171,6 +193,36 @@ struct lattice {
     }
 
   private:
+    /// The load ratio of a sum of loads is at most the sum of theirs, because it is made of norms; of the three axes,
+    /// by Cauchy and Schwarz, at most the length of the load times the root of the sum of their squares.
+    void find_bounds() {
+        for (std::size_t e = 0; e < ends.size(); ++e) {
+            const std::size_t i = at(ends[e].a), j = at(ends[e].b);
+            for (std::size_t p = 0; p < size(); ++p)
+                for (const bool turns : {false, true}) {
+                    double sum = 0.0;
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const std::size_t column = 6 * p + axis + (turns ? 3 : 0);
+                        const auto part = [&](std::size_t pebble, std::size_t first) {
+                            const std::size_t row = 6 * pebble + first;
+                            return vec3{pseudo_inverse(row, column), pseudo_inverse(row + 1, column),
+                                        pseudo_inverse(row + 2, column)};
+                        };
+                        state s;
+                        stretch(bond[e], s, normal[e],
+                                relative_velocity(normal[e], arm[e].a, arm[e].b, part(i, 0), part(i, 3), part(j, 0),
+                                                  part(j, 3)),
+                                part(j, 3) - part(i, 3), 1.0);
+                        state back = s; // a load of either sign
+                        back.n = -s.n;
+                        const double most = std::max(bonds::load_ratio(bond[e], s), bonds::load_ratio(bond[e], back));
+                        sum += most * most;
+                    }
+                    double& bound = (turns ? per_moment : per_force)[p];
+                    bound = std::max(bound, std::sqrt(sum));
+                }
+        }
+    }
     static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 };
 

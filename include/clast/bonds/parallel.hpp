@@ -194,6 +194,13 @@ inline double utilisation(const constants& c, const state& s) {
     return std::max(t.sigma / c.tensile_strength, strength > 0.0 ? t.tau / strength : 2.0);
 }
 
+/// Like utilisation(), but proportional to the load also where strength depends on it (phi_b > 0): a bond fails at 1,
+/// and at 1/x of its state if this is x.
+inline double load_ratio(const constants& c, const state& s) {
+    const stresses t = stresses_of(c, s);
+    return std::max(t.sigma / c.tensile_strength, (t.tau + s.n * c.per_area * c.tan_friction) / c.cohesion);
+}
+
 /// Elastic energy stored in a bond (J).
 inline double energy(const constants& c, const state& s) {
     return 0.5 * (s.n * s.n / c.kn + norm2(s.v) / c.ks + s.mt * s.mt / c.kt + norm2(s.mb) / c.kb);

@@ -63,6 +63,9 @@ template <class T> struct wrench : response<T> {
 /// - `static constexpr bool uses_masses = false`: it reads no mass, so none is gathered for it;
 /// - `static constexpr bool reads_materials = true`: it reads materials, so they are gathered for it;
 /// - `double rolling_stiffness(o) const` and `twisting_stiffness(o)` (N m): of moments that resist a relative rotation;
+/// - `history reversed() const`, a member of its history: the same contact seen from pebble j; without, a contact
+/// between
+///   two fragments of one grain may begin anew when these freeze;
 /// - `double reach() const`: how far beyond touch two pebbles feel each other (m), >= 0; at walls it acts on touch.
 template <class L>
 concept contact_law = std::copyable<L> && std::is_trivially_copyable_v<typename L::history> &&
@@ -92,6 +95,14 @@ concept resists_rotation = requires(const L law, overlap<double> o) {
 template <class L> constexpr double reach_of([[maybe_unused]] const L& law) {
     if constexpr (requires { law.reach(); }) return law.reach();
     return 0.0;
+}
+/// What a contact remembers when its pebbles change sides, i for j: what a history says of itself (`reversed() const`);
+/// nothing if it does not.
+template <class H> constexpr H reversed(const H& h) {
+    if constexpr (requires { h.reversed(); })
+        return h.reversed();
+    else
+        return H{};
 }
 /// Whether masses are gathered for a law.
 template <class L> constexpr bool reads_masses() {

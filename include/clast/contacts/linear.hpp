@@ -21,6 +21,9 @@ struct shear_history {
     double x = 0.0;
     double y = 0.0;
     double z = 0.0;
+
+    /// Of the same contact seen from j.
+    constexpr shear_history reversed() const { return {-x, -y, -z}; }
 };
 
 /// Tangential spring with a slider: turns the shear force of the last step into the new contact plane and by the spin

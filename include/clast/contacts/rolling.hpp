@@ -26,6 +26,9 @@ template <contact_law Base> struct rolling : Base {
         typename Base::history base;
         shear_history roll; ///< rolling moment on i (N m)
         double twist = 0.0; ///< twisting moment on i along the normal (N m)
+
+        /// Of the same contact seen from j: the normal turns round, too, so the twist stays.
+        constexpr history reversed() const { return {contacts::reversed(base), roll.reversed(), twist}; }
     };
 
     template <class T>

@@ -157,14 +157,15 @@ struct breakage_state {
     /// Fragment and state of a pebble, for a picture.
     void describe(const bodies::clumps& g, std::size_t pebble, pebble_view& view) const {
         const grain& one = g.grains[static_cast<std::size_t>(g.mother[pebble])];
+        if (one.lost > 0) view.state = pebble_state::fragment;
         if (one.cluster == grain::is_whole) return;
-        view.fragment = fragment[pebble];
+        view.fragment = g.number_of_pebble(fragment[pebble]);
         view.state = pebble_state::fragment;
         if (one.cluster == grain::is_loose) return;
         const auto& pool = pools[static_cast<std::size_t>(one.shape)];
         const bool whole =
             pool.intact_bonds(static_cast<std::size_t>(one.cluster)) == static_cast<std::int32_t>(pool.bonds());
-        view.state = whole ? pebble_state::bonded : pebble_state::fragment;
+        view.state = whole && one.lost == 0 ? pebble_state::bonded : pebble_state::fragment;
     }
     /// Adds the kinetic energy of balls (J), one by one.
     double add_kinetic_energy(const bodies::clumps& g, double e) const {

@@ -8,6 +8,7 @@
 
 #include <clast/bonds/lattice.hpp>
 #include <clast/core/vector.hpp>
+#include <clast/criteria/concepts.hpp>
 #include <clast/engine/grain_load.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/grains/shape.hpp>
@@ -22,6 +23,7 @@ template <class S> class grain_view {
 
     std::int32_t grain() const { return static_cast<std::int32_t>(g_); }
     std::int64_t id() const { return one().id; }
+    double strength_factor() const { return criteria::strength_factor_of(s_.settings.breakage, one().origin); }
     /// Of the criterion, under the forces just evaluated.
     double utilisation() const {
         std::vector<vec3> forces;

@@ -16,10 +16,10 @@
 
 #include <clast/bodies/contact_list.hpp>
 #include <clast/bonds/cluster_pool.hpp>
+#include <clast/engine/bond_failure.hpp>
 #include <clast/engine/kernel.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/engine/step_limit.hpp>
-#include <clast/engine/surgery.hpp>
 #include <clast/engine/walls.hpp>
 
 namespace clast::rooms {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only room that changes owners: clumps become balls, clusters of balls or smaller clumps, and bonds of clusters
-// fail. Nothing is made or lost here: pebbles get other owners, and pairs go from one list to another with what they
+// The only room that changes owners: clumps become balls, clusters of balls or smaller clumps, and balls become clumps.
+// Nothing is made or lost here: pebbles get other owners, and pairs go from one list to another with what they
 // remember.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include <clast/core/vector.hpp>
 #include <clast/criteria/concepts.hpp>
 #include <clast/engine/neighbourhood.hpp>
+#include <clast/engine/rearrange.hpp>
 #include <clast/engine/scene.hpp>
 #include <clast/grains/shape.hpp>
 #include <clast/integrators/rotation.hpp>
@@ -28,9 +30,6 @@
 #include <clast/replacements/concepts.hpp>
 
 namespace clast::rooms {
-
-// ---- what a replacement may do
-// ---------------------------------------------------------------------------------------
 
 /// What a replacement policy is given to act with, at the end of a step. Grains are named by their places in the table;
 /// a place holds while a policy acts on one grain, unless that is split. Everything here keeps mass, momentum and
@@ -47,10 +46,20 @@ template <class S> class surgery {
     explicit surgery(S& s) : s_(s) {}
 
     const clast::shape& shape_of(std::int32_t grain) const { return s_.grains.shape_of(one(grain)); }
-    /// Strength of a grain over that of its like, by the criterion; 1 if it knows of none.
+    /// Strength of a grain over that of its like, by the criterion; 1 if it knows of none. Parts that were frozen keep
+    /// that of the grain whose bonds they have.
     double strength_factor(std::int32_t grain) const {
-        return criteria::strength_factor_of(s_.settings.breakage, one(grain).id);
+        return criteria::strength_factor_of(s_.settings.breakage, one(grain).origin);
     }
+    double time() const { return s_.totals.time + s_.dt; } ///< at the end of this step (s)
+    /// How many of the bonds of its shape a grain has left: all of them as long as it is a clump.
+    std::int32_t intact_bonds(std::int32_t grain) const;
+    /// Per pebble of a grain the piece that it belongs to, joined by intact bonds: numbers from 0, in the order of the
+    /// first pebbles of pieces. A clump is one piece.
+    std::vector<std::int32_t> pieces(std::int32_t grain) const;
+    /// Largest load of an intact bond of a grain over its strength (bonds::load_ratio); 0 if it has none, or is a
+    /// clump, whose bonds are not there.
+    double bond_load(std::int32_t grain) const;
     /// What the policy remembers of a grain.
     state_type& state(std::int32_t grain) requires(decltype(S::replacing)::remembers) {
         return s_.replacing.of_grain[s_.at(grain)];
@@ -75,8 +84,13 @@ template <class S> class surgery {
     /// and angular momentum are kept to rounding, and contacts with other grains and between parts; bonds are gone. The
     /// kinetic energy that this takes, and what bonds and contacts within a part held, are booked as bond_dissipation,
     /// less what contacts between parts hold that a bond has carried until now. Parts get shapes of their own, with the
-    /// bonds that were intact. Throws input_error if the grain is a clump, or the parts are not such.
+    /// bonds that were intact, and keep the strength factor of the whole. Throws input_error if the grain is a clump,
+    /// or the parts are not such.
     void freeze(std::int32_t grain, std::span<const replacements::pebble_run> parts);
+    /// The same for any parts: part[k] says to which of them pebble k belongs, counted from 0 without a gap. Pebbles
+    /// exchange places within the grain until those of a part stand together, in their order; their numbers for life
+    /// (clumps::numbers) go with them. Throws input_error if the grain is a clump, or a number makes no sense.
+    void freeze(std::int32_t grain, std::span<const std::int32_t> part);
     /// The policy's again(grain, surgery) is called at the end of the step that comes `steps` (>= 1) after this one.
     /// If the grain is split meanwhile, about the first part. Throws input_error for less than one step.
     void again_in(std::int32_t grain, std::int64_t steps) {
@@ -92,18 +106,51 @@ template <class S> class surgery {
     const clast::grain& one(std::int32_t grain) const { return s_.grains.grains[s_.at(grain)]; }
     std::int32_t add_shape(clast::shape made);
     std::int32_t shape_of_part(std::int32_t whole, const replacements::pebble_run& part);
-    std::int32_t shape_of_frozen(std::int32_t grain, const replacements::pebble_run& part);
+    std::int32_t shape_of_frozen(std::int32_t grain, std::span<const std::int32_t> part, std::int32_t which);
+    /// How many parts there are.
+    std::int32_t check(std::int32_t grain, std::span<const std::int32_t> part) const;
     void check(std::int32_t grain, std::span<const replacements::pebble_run> parts, bool is_clump) const;
     void divide(std::int32_t grain, std::size_t parts);
     /// Elastic energy (J) of contacts between parts of a grain.
     double energy_between(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
     /// Elastic energy (J) of bonds of a grain and of contacts within its parts, less that of contacts between parts
     /// that a bond carries.
-    double energy_within(std::int32_t grain, std::span<const replacements::pebble_run> parts) const;
+    double energy_within(std::int32_t grain, std::span<const std::int32_t> part) const;
 
     S& s_;
     bool cut_ = false, owners_changed_ = false;
 };
+
+template <class S> std::int32_t surgery<S>::intact_bonds(std::int32_t number) const {
+    const clast::grain& g = one(number);
+    if constexpr (S::breakable) {
+        if (g.cluster == clast::grain::is_loose) return 0;
+        if (g.cluster >= 0) return s_.broken.pools[s_.at(g.shape)].intact_bonds(s_.at(g.cluster));
+    }
+    return static_cast<std::int32_t>(shape_of(number).bonds.size());
+}
+
+template <class S> std::vector<std::int32_t> surgery<S>::pieces(std::int32_t number) const {
+    const clast::grain& g = one(number);
+    std::vector<std::int32_t> piece(shape_of(number).pebbles.size(), 0);
+    if (s_.grains.is_clump(s_.at(number))) return piece;
+    std::int32_t found = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) { // a fragment is named by its first pebble
+        const std::int32_t named = s_.broken.fragment[s_.at(g.first) + k] - g.first;
+        piece[k] = s_.at(named) == k ? found++ : piece[s_.at(named)];
+    }
+    return piece;
+}
+
+template <class S> double surgery<S>::bond_load(std::int32_t number) const {
+    const clast::grain& g = one(number);
+    if (g.cluster < 0) return 0.0;
+    const bonds::cluster_pool& pool = s_.broken.pools[s_.at(g.shape)];
+    double most = 0.0;
+    for (std::size_t b = 0; b < pool.bonds(); ++b)
+        if (pool.is_intact(s_.at(g.cluster), b)) most = std::max(most, pool.load_of(s_.at(g.cluster), b));
+    return most;
+}
 
 template <class S> void surgery<S>::release(std::int32_t number) {
     static_assert(S::breakable, "release() needs balls, which a scene has if the replacement says makes_bonds = true");
@@ -162,6 +209,20 @@ void surgery<S>::check(std::int32_t number, std::span<const replacements::pebble
                           "The first run starts at 0, each other one where the one before it ends.");
 }
 
+template <class S> std::int32_t surgery<S>::check(std::int32_t number, std::span<const std::int32_t> part) const {
+    const std::size_t pebbles = shape_of(number).pebbles.size();
+    std::vector<std::uint8_t> used(pebbles, 0);
+    bool fine = !s_.grains.is_clump(s_.at(number)) && part.size() == pebbles;
+    for (const std::int32_t k : part)
+        if (fine = fine && k >= 0 && s_.at(k) < pebbles; fine) used[s_.at(k)] = 1;
+    const auto parts = std::count(used.begin(), used.end(), 1);
+    if (!fine || std::find(used.begin(), used.begin() + parts, 0) != used.begin() + parts)
+        throw input_error("freeze", fmt::format("{} numbers of parts for grain {}", part.size(), number),
+                          fmt::format("a grain that was released, and a number for each of its {} pebbles", pebbles),
+                          "Number the parts from 0, and leave none out.");
+    return static_cast<std::int32_t>(parts);
+}
+
 template <class S>
 double surgery<S>::energy_between(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
     const std::int32_t first = one(number).first;
@@ -175,14 +236,11 @@ double surgery<S>::energy_between(std::int32_t number, std::span<const replaceme
     return e;
 }
 
-template <class S>
-double surgery<S>::energy_within(std::int32_t number, std::span<const replacements::pebble_run> parts) const {
+template <class S> double surgery<S>::energy_within(std::int32_t number, std::span<const std::int32_t> part) const {
     const clast::grain& g = one(number);
     const auto part_at = [&](std::int32_t pebble) { // -1: of another grain
-        for (std::size_t k = 0; k < parts.size(); ++k)
-            if (const std::int32_t p = pebble - g.first - parts[k].first; 0 <= p && p < parts[k].count)
-                return static_cast<int>(k);
-        return -1;
+        const std::int32_t p = pebble - g.first;
+        return 0 <= p && s_.at(p) < part.size() ? part[s_.at(p)] : -1;
     };
     const auto stored = [&](const pebble_pair& p, const typename S::history& h) {
         const double depth = s_.radius(p.i) + s_.radius(p.j) - norm(s_.position(p.j) - s_.position(p.i));
@@ -218,20 +276,33 @@ template <class S> std::int32_t surgery<S>::shape_of_part(std::int32_t whole, co
     return made;
 }
 
-template <class S> std::int32_t surgery<S>::shape_of_frozen(std::int32_t number, const replacements::pebble_run& part) {
+template <class S>
+std::int32_t surgery<S>::shape_of_frozen(std::int32_t number, std::span<const std::int32_t> part, std::int32_t which) {
     const clast::grain& g = one(number);
     const clast::shape& whole = shape_of(number);
     std::vector<shape_pebble> pebbles;
-    const vec3 origin = s_.position(g.first + part.first);
-    for (std::int32_t p = g.first + part.first; p < g.first + part.first + part.count; ++p)
+    std::vector<std::int32_t> place(part.size(), -1);
+    vec3 origin;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+        if (part[k] != which) continue;
+        const std::int32_t p = g.first + static_cast<std::int32_t>(k);
+        if (pebbles.empty()) origin = s_.position(p);
+        place[k] = static_cast<std::int32_t>(pebbles.size());
         pebbles.push_back({s_.position(p) - origin, s_.radius(p)});
-    std::vector<shape_bond> bonds;
-    for (std::size_t e = 0; g.cluster >= 0 && e < whole.bonds.size(); ++e) {
-        const shape_bond b{whole.bonds[e].a - part.first, whole.bonds[e].b - part.first};
-        if (0 <= b.a && b.b < part.count && s_.broken.pools[s_.at(g.shape)].is_intact(s_.at(g.cluster), e))
-            bonds.push_back(b);
     }
-    return add_shape(rigid_shape(whole.name + " frozen", std::move(pebbles), std::move(bonds)));
+    std::vector<shape_bond> bonds;
+    std::vector<std::int32_t> numbers;
+    for (std::size_t e = 0; g.cluster >= 0 && e < whole.bonds.size(); ++e) {
+        const shape_bond b{place[s_.at(whole.bonds[e].a)], place[s_.at(whole.bonds[e].b)]};
+        if (b.a < 0 || b.b < 0 || !s_.broken.pools[s_.at(g.shape)].is_intact(s_.at(g.cluster), e)) continue;
+        bonds.push_back(b);
+        numbers.push_back(number_of_bond(whole, static_cast<std::int32_t>(e)));
+    }
+    // its name tells once that it was frozen, however often it was
+    const std::string frozen = whole.name.ends_with(" frozen") ? whole.name : whole.name + " frozen";
+    clast::shape made = rigid_shape(frozen, std::move(pebbles), std::move(bonds));
+    if (!made.bonds.empty()) made.bond_numbers = std::move(numbers);
+    return add_shape(std::move(made));
 }
 
 template <class S> void surgery<S>::divide(std::int32_t number, std::size_t parts) {
@@ -268,13 +339,32 @@ template <class S> void surgery<S>::split(std::int32_t number, std::span<const r
 template <class S> void surgery<S>::freeze(std::int32_t number, std::span<const replacements::pebble_run> parts) {
     static_assert(S::breakable, "freeze() needs balls, which a scene has if the replacement says makes_bonds = true");
     check(number, parts, false);
-    s_.totals.bond_dissipation += energy_within(number, parts);
+    std::vector<std::int32_t> part;
+    for (const replacements::pebble_run& p : parts)
+        part.insert(part.end(), s_.at(p.count), static_cast<std::int32_t>(&p - parts.data()));
+    freeze(number, part);
+}
+
+template <class S> void surgery<S>::freeze(std::int32_t number, std::span<const std::int32_t> part) {
+    static_assert(S::breakable, "freeze() needs balls, which a scene has if the replacement says makes_bonds = true");
+    const std::int32_t parts = check(number, part);
+    s_.totals.bond_dissipation += energy_within(number, part);
     std::vector<clump_part> made;
-    for (const replacements::pebble_run& p : parts) made.push_back({p.first, shape_of_frozen(number, p)});
-    s_.broken.balls_were_frozen(s_.grains, one(number));
+    std::vector<std::int32_t> order;
+    for (std::int32_t which = 0; which < parts; ++which) {
+        made.push_back({static_cast<std::int32_t>(order.size()), shape_of_frozen(number, part, which)});
+        for (std::size_t k = 0; k < part.size(); ++k)
+            if (part[k] == which) order.push_back(static_cast<std::int32_t>(k));
+    }
+    const clast::grain& g = one(number);
+    const std::int32_t lost = g.lost + static_cast<std::int32_t>(shape_of(number).bonds.size()) - intact_bonds(number);
+    s_.broken.balls_were_frozen(s_.grains, g);
+    std::erase_if(s_.asleep, [&](const pebble_pair& p) { return s_.grains.mother[s_.at(p.i)] == number; });
+    if (!std::is_sorted(order.begin(), order.end())) rearrange(s_, s_.at(number), order);
     s_.totals.bond_dissipation += s_.grains.freeze(s_.at(number), made);
+    for (std::size_t k = 0; k < made.size(); ++k) s_.grains.grains[s_.at(number) + k].lost = lost;
     erase_contacts(s_.light, [&](const pebble_pair& p) { return s_.grains.body_of(p.i) == s_.grains.body_of(p.j); });
-    divide(number, parts.size());
+    divide(number, made.size());
 }
 
 template <class S> void surgery<S>::finish() {
@@ -287,61 +377,6 @@ template <class S> void surgery<S>::finish() {
     sort_by(s_.light, s_.pair_order());
     s_.near.wide.heavy = s_.near.wide.light = {};
     s_.heavy_of.reset();
-}
-
-// ---- bonds fail -----------------------------------------------------------------------------------------------------
-
-/// Connected pieces of a cluster, named by their smallest pebble.
-template <class S> void update_fragments(S& s, std::size_t which, std::int32_t cluster) {
-    auto& b = s.broken;
-    const bonds::cluster_pool& pool = b.pools[which];
-    const std::int32_t first = s.grains.grains[s.at(b.members[which][s.at(cluster)])].first;
-    const std::size_t n = pool.shape().size();
-    for (std::size_t k = 0; k < n; ++k) b.fragment[s.at(first) + k] = first + static_cast<std::int32_t>(k);
-    bool changed = true;
-    while (changed) {
-        changed = false;
-        for (std::size_t e = 0; e < pool.bonds(); ++e) {
-            if (!pool.is_intact(s.at(cluster), e)) continue;
-            std::int32_t& i = b.fragment[s.at(first + pool.shape().ends[e].a)];
-            std::int32_t& j = b.fragment[s.at(first + pool.shape().ends[e].b)];
-            if (i != j) i = j = std::min(i, j), changed = true;
-        }
-    }
-    if (pool.intact_bonds(s.at(cluster)) == 0)
-        for (std::size_t k = 0; k < n; ++k) b.bonded[s.at(first) + k] = 0;
-}
-/// Reports a bond that has failed; its pair goes on as a frictional contact.
-template <class S> void part(S& s, std::size_t which, const bonds::break_report& r) {
-    const bonds::cluster_pool& pool = s.broken.pools[which];
-    const std::int32_t g = s.broken.members[which][s.at(r.cluster)];
-    const std::int32_t first = s.grains.grains[s.at(g)].first;
-    const shape_bond& ends = pool.shape().ends[s.at(r.bond)];
-    const pebble_pair pair{first + ends.a, first + ends.b};
-    fracture_event e;
-    e.time = s.broken.time;
-    e.mode = r.mode;
-    e.normal = unit(s.position(pair.j) - s.position(pair.i));
-    e.position = s.position(pair.i) + s.radius(pair.i) * e.normal;
-    e.mother = s.grains.grains[s.at(g)].id;
-    e.bond = r.bond;
-    e.normal_force = r.before.n;
-    e.shear_force = norm(r.before.v);
-    e.bending_moment = norm(r.before.mb);
-    e.twisting_moment = std::abs(r.before.mt);
-    e.energy = pool.energy_of(s.at(r.cluster), s.at(r.bond), r.before);
-    s.broken.events.push_back(e);
-    s.totals.bond_dissipation += e.energy;
-    ++(r.mode == break_mode::tension ? s.totals.broken_tension : s.totals.broken_shear);
-    const auto order = s.pair_order();
-    const std::size_t k = find_pair(s.asleep, pair, order);
-    if (k < s.asleep.size()) {
-        s.asleep.erase(s.asleep.begin() + static_cast<std::ptrdiff_t>(k));
-        s.light.insert(pair, order);
-        s.near.wide.light.insert(pair, order);
-    }
-    update_fragments(s, which, r.cluster);
-    s.estimate_due = true; // a lighter piece may need a smaller sub-step
 }
 
 } // namespace clast::rooms

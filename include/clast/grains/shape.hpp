@@ -54,10 +54,11 @@ struct shape_bond {
 struct shape {
     std::string name;
     std::vector<shape_pebble> pebbles;
-    std::vector<shape_bond> bonds;     ///< sorted by (a, b)
-    double volume = 0.0;               ///< of the pebbles (m^3)
-    double circumscribed_radius = 0.0; ///< smallest sphere around the mass centre that contains all pebbles (m)
-    double diameter = 0.0;             ///< nominal, d, by the reading (m)
+    std::vector<shape_bond> bonds;          ///< sorted by (a, b)
+    std::vector<std::int32_t> bond_numbers; ///< of a part: what its bonds are called in the whole; empty: their places
+    double volume = 0.0;                    ///< of the pebbles (m^3)
+    double circumscribed_radius = 0.0;      ///< smallest sphere around the mass centre that contains all pebbles (m)
+    double diameter = 0.0;                  ///< nominal, d, by the reading (m)
     size_reading reading = size_reading::equivalent;
     vec3 inertia_per_density;  ///< principal moments of inertia over density (m^5); equal ones are bit-equal
     quaternion to_input_frame; ///< turns principal axes into the axes in which the pebbles were given
@@ -66,10 +67,15 @@ struct shape {
     bool overlapping = false;  ///< pebbles overlap: for grains that never break
 
     template <class A> void archive(A& a) {
-        a(name, pebbles, bonds, volume, circumscribed_radius, diameter, reading, inertia_per_density, to_input_frame,
-          mass_centre, phi_nominal, overlapping);
+        a(name, pebbles, bonds, bond_numbers, volume, circumscribed_radius, diameter, reading, inertia_per_density,
+          to_input_frame, mass_centre, phi_nominal, overlapping);
     }
 };
+
+/// What a bond of a shape is called in reports: in a part what it was called in the whole.
+inline std::int32_t number_of_bond(const shape& s, std::int32_t bond) {
+    return s.bond_numbers.empty() ? bond : s.bond_numbers[static_cast<std::size_t>(bond)];
+}
 
 /// Moment of inertia of one solid sphere over density about its centre, (2/5)(4/3) pi r^5 (m^5).
 constexpr double sphere_inertia_per_density(double radius) {

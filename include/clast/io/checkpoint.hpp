@@ -29,7 +29,7 @@ namespace detail {
 struct checkpoint_header {
     static constexpr std::uint32_t native_order = 0x01020304;
     static constexpr std::uint32_t foreign_order = 0x04030201;
-    static constexpr std::uint32_t current_version = 4; ///< raised whenever what a state archives changes
+    static constexpr std::uint32_t current_version = 5; ///< raised whenever what a state archives changes
 
     char magic[8] = {'c', 'l', 'a', 's', 't', 'c', 'p', '\n'};
     std::uint32_t byte_order = native_order;

@@ -68,8 +68,8 @@ struct fracture_event {
     break_mode mode = break_mode::tension;
     vec3 position;                ///< bond point (m), kept where it happened (paper Fig. 8)
     vec3 normal;                  ///< unit normal of the bond
-    std::int32_t mother = -1;     ///< grain id of the broken mother
-    std::int32_t bond = -1;       ///< bond index in the mother's shape
+    std::int32_t mother = -1;     ///< grain id of the broken mother, also where a frozen fragment of it breaks on
+    std::int32_t bond = -1;       ///< bond index in the mother's shape, also there
     double normal_force = 0.0;    ///< tension positive (N)
     double shear_force = 0.0;     ///< |V| (N)
     double bending_moment = 0.0;  ///< (N m)

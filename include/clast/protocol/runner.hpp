@@ -240,8 +240,12 @@ template <class P> class runner {
             reference_height_ = sim.boundary.height();
             reference_volume_ = sim.boundary.volume();
             sim.place_all();
-            reference_.clear();
-            for (const auto& pebble : sim.grains.pebbles) reference_.push_back(pebble.x);
+            reference_.resize(sim.grains.pebble_count());
+            for (std::size_t p = 0; p < reference_.size(); ++p) {
+                const auto pebble = static_cast<std::int32_t>(p);
+                reference_[static_cast<std::size_t>(measure::number_of_pebble(sim.grains, pebble))] =
+                    sim.grains.pebbles[p].x;
+            }
         }
         start_volume_ = sim.boundary.volume();
         start_sigma_3_ = stresses().sigma_3;

@@ -47,7 +47,8 @@ struct pebble_run {
 /// it has not moved yet. What costs something is found when it is asked for.
 template <class State> struct view_archetype {
     std::int32_t grain() const;                           ///< place in the table of grains
-    std::int64_t id() const;                              ///< its number for life, by which strength scatters
+    std::int64_t id() const;                              ///< its number for life
+    double strength_factor() const;                       ///< its strength over that of its like (criterion)
     double utilisation() const;                           ///< of the criterion, >= 0; the grain breaks at 1
     std::vector<bonds::pebble_load> pebble_loads() const; ///< per pebble: force (N), moment about its centre (N m)
     std::size_t neighbours() const;                       ///< clumps, fragments, platens, wall that touch it
@@ -66,11 +67,16 @@ template <class State> struct view_archetype {
 template <class State> struct surgery_archetype {
     const clast::shape& shape_of(std::int32_t grain) const;
     double strength_factor(std::int32_t grain) const;
+    double time() const;
+    std::int32_t intact_bonds(std::int32_t grain) const;
+    std::vector<std::int32_t> pieces(std::int32_t grain) const;
+    double bond_load(std::int32_t grain) const;
     State& state(std::int32_t grain);
     void release(std::int32_t grain);
     void bond(std::int32_t grain, const std::vector<bonds::state>& born, double strength);
     void split(std::int32_t grain, std::span<const pebble_run> parts);
     void freeze(std::int32_t grain, std::span<const pebble_run> parts);
+    void freeze(std::int32_t grain, std::span<const std::int32_t> part);
     void again_in(std::int32_t grain, std::int64_t steps);
 };
 
