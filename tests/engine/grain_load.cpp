@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clast/engine/grain_load.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -233,4 +234,27 @@ TEST_CASE("a neighbour that has been replaced is one as long as its bonds hold")
     REQUIRE(load.neighbour_forces.size() == 2);
     for (const vec3& f : load.neighbour_forces) CHECK(std::abs(f.z) == Approx(force).epsilon(1e-3));
     CHECK(load.largest_force == Approx(force).epsilon(1e-3));
+}
+
+TEST_CASE("friction of a wall turns a pebble by the arm that moves its clump: to the middle of the overlap") {
+    auto s = scenes::settings<scenes::breakable<>>(never);
+    s.platen_contact.mu = 0.3;
+    auto e = scenes::pressed(s, 300.0);
+    e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.02};
+    e.step(3000); // deep
+    e.grains.motion[0].v.x = 1.0;
+    e.step(3); // and rubbing
+    e.breakage_on = true;
+    e.settings.replacement.check_interval = 1;
+    e.step();
+    const auto& state = e.state();
+    REQUIRE(scenes::load(e) > 5000.0);
+    const std::vector<bonds::pebble_load> loads = rooms::pebble_loads(state, 0);
+    double most = 0.0;
+    for (std::size_t k = 0; k < state.heavy_wall.size(); ++k) {
+        const vec3& moment = state.heavy_grip[k].moment;
+        CHECK(norm(loads[static_cast<std::size_t>(state.heavy_wall[k].pebble)].moment - moment) <= 1e-6 * norm(moment));
+        most = std::max(most, norm(moment));
+    }
+    CHECK(most > 0.1);
 }

@@ -51,10 +51,14 @@ void each_row_of(const S& s, std::size_t g, const incidence& of, const contact_l
             const auto wall_of = [&s](const boundaries::touch& t) {
                 return -1 - boundaries::part_of(s.boundary, t.facet);
             };
-            for (const boundaries::touch& t : w.touch)
+            double pushed = 0.0, depth = 0.0;
+            for (const boundaries::touch& t : w.touch) {
                 f(acting_force{w.pebble, wall_of(t), w.share(t) * t.normal, x - r * t.normal, r});
-            if (norm2(w.friction) > 0.0)
-                f(acting_force{w.pebble, wall_of(*w.touch.begin()), w.friction, x - r * unit(w.force - w.friction), r});
+                pushed += w.share(t), depth += w.share(t) * t.depth;
+            }
+            if (norm2(w.friction) > 0.0) // in the middle of the overlap, as in wall_friction.hpp
+                f(acting_force{w.pebble, wall_of(*w.touch.begin()), w.friction,
+                               x - (r - 0.5 * depth / pushed) * unit(w.force - w.friction), r});
         }
     }
 }
@@ -99,7 +103,7 @@ template <class S> criteria::grain_load load_of(const S& s, std::size_t g, std::
     criteria::grain_load load;
     load.diameter = s.grains.diameter_of(one);
     load.volume = s.grains.volume_of(one);
-    load.grain = one.id;
+    load.grain = one.origin;
     const bool wants_stress = wants(needs::stress);
     const auto around = neighbours_of(s, g, [&](const acting_force& f) {
         // force into the grain at the arm x - X: f (x) arm is negative in compression
