@@ -29,6 +29,8 @@
 #include <clast/integrators/leapfrog.hpp>
 #include <clast/protocol/paths.hpp>
 #include <clast/protocol/triaxial.hpp>
+#include <clast/replacements/bonded_from_start.hpp>
+#include <clast/replacements/clusters.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
 #include <clast/searches/brute_force.hpp>
