@@ -674,7 +674,7 @@ TEST_CASE("contacts between fragments of one grain go on with their histories wh
     auto settings = scenes::settings<thawing>(1.0, 0.02); // many bonds break
     settings.scheme.damping = 0.0;
     settings.replacement.parts = 3, settings.replacement.across = true;
-    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(0.02));
+    engine<thawing> e = scenes::collision(settings, shapes::apollonian_14(circumscribed(0.02)));
     while (e.breakage().balls.empty()) e.step();
     e.step(20);
     scene<thawing> s = e.state();

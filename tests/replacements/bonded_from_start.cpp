@@ -26,7 +26,7 @@ struct scattered : bonded {
 } // namespace
 
 TEST_CASE("all grains with bonds are clusters after the first look, whatever their load, the others stay") {
-    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(0.02));
+    bodies::clumps sp = scenes::empty(shapes::tetrahedron_4(circumscribed(0.02)));
     sp.shapes.push_back(shapes::sphere(0.01));
     sp.add(0, {}, {}), sp.add(1, {0.03, 0, 0}, {}), sp.add(0, {0, 0.03, 0}, {});
     engine<bonded> e(scenes::settings<bonded>(1e15), std::move(sp),
@@ -45,7 +45,7 @@ TEST_CASE("all grains with bonds are clusters after the first look, whatever the
 
 TEST_CASE("clusters of a loaded packing are born in equilibrium: nothing breaks, and no force jumps") {
     auto s = scenes::settings<bonded>(1e15, 1e6);
-    auto e = scenes::packed<bonded>(s, shapes::tetrahedron_4(0.02), 24, 0.055, 2e5, 6000);
+    auto e = scenes::packed<bonded>(s, shapes::tetrahedron_4(circumscribed(0.02)), 24, 0.055, 2e5, 6000);
     const double before = scenes::load(e), stored = e.elastic_energy();
     e.breakage_on = true;
     e.step(e.settings.replacement.looks_every() + 1);

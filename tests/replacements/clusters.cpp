@@ -17,7 +17,7 @@ using namespace clast;
 using bonded = crushed::policies<replacements::bonded_from_start>;
 
 TEST_CASE("pieces of a broken cluster become clumps with the bonds that they have left, single pebbles as is asked") {
-    auto e = crushed::seated<replacements::bonded_from_start>(shapes::apollonian_14(0.02), 0);
+    auto e = crushed::seated<replacements::bonded_from_start>(shapes::apollonian_14(circumscribed(0.02)), 0);
     e.drives.platens.value = 0.1;
     while (e.totals().broken_tension + e.totals().broken_shear == 0) e.step();
     e.step(20);

@@ -302,6 +302,7 @@ std::int32_t surgery<S>::shape_of_frozen(std::int32_t number, std::span<const st
     const std::string frozen = whole.name.ends_with(" frozen") ? whole.name : whole.name + " frozen";
     clast::shape made = rigid_shape(frozen, std::move(pebbles), std::move(bonds));
     if (!made.bonds.empty()) made.bond_numbers = std::move(numbers);
+    clast::detail::read_size(made, whole.reading);
     return add_shape(std::move(made));
 }
 
