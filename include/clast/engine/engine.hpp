@@ -201,6 +201,7 @@ template <class P> class engine : private scene<P> {
         s.replacing.begin(grains.grain_count());
         s.smallest_mass = grains.smallest_mass();
         s.smallest_radius = smallest_radius();
+        if constexpr (scene_type::replaces) rooms::check_replacement(s);
         s.near.widths = first_widths();
         rooms::sort_pebbles(s);
         count_initial_energy();

@@ -15,6 +15,7 @@
 #include <clast/core/errors.hpp>
 #include <clast/engine/grain_view.hpp>
 #include <clast/engine/scene.hpp>
+#include <clast/engine/step_limit.hpp>
 #include <clast/engine/surgery.hpp>
 
 namespace clast::rooms {
@@ -26,6 +27,15 @@ template <class Body> void refuse_overlapping(const Body& bodies) {
             throw input_error(fmt::format("shape '{}'", s.name), "pebbles that overlap",
                               "pebbles that touch, where grains may be replaced",
                               "Take replacements::none, or pebbles that touch.");
+}
+/// Asks a policy that has a member check(shape, scale, stiffness) about every grain: stiffness is that of a typical
+/// contact between pebbles (N/m).
+template <class S> void check_replacement(const S& s) {
+    const auto& policy = s.settings.replacement;
+    if constexpr (requires { policy.check(s.grains.shapes[0], 1.0, 1.0); }) {
+        const double contact = s.settings.grain_contact.normal_stiffness(s.typical_overlap(expected_overlap(s)));
+        for (const grain& g : s.grains.grains) policy.check(s.grains.shape_of(g), g.scale, contact);
+    }
 }
 /// Whether clumps are looked at in this step.
 template <class S> bool looks_at_clumps(const S& s) {
