@@ -33,6 +33,7 @@
 #include <clast/replacements/clusters.hpp>
 #include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
+#include <clast/replacements/refreezing.hpp>
 #include <clast/replacements/rigid_bonded.hpp>
 #include <clast/searches/brute_force.hpp>
 #include <clast/searches/cell_grid.hpp>
