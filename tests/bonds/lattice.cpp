@@ -374,7 +374,7 @@ TEST_CASE("a shape whose bonds leave a piece apart is refused") {
 
 TEST_CASE("the bound of loads is never below what a bond carries, and not above it by more than some thirty times") {
     random_stream random{23, 1};
-    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(0.02)})
+    for (const shape& s : {shapes::tetrahedron_4(circumscribed(0.02)), shapes::apollonian_14(circumscribed(0.02))})
         for (const likeness like : {likeness{}, likeness{0.5, 1.3}}) {
             const lattice l(s, parallel{}, density);
             const double strongest = like.scale * like.scale; // of equal stress

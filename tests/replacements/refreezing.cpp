@@ -80,7 +80,7 @@ TEST_CASE("in a crushed packing pieces become rigid and break on, on any number 
         s.run = execution(threads);
         s.contacts_per_thread = 8;
         s.replacement.rest = 2e-4, s.replacement.rest_interval = 20;
-        auto e = scenes::packed<freezing>(s, shapes::apollonian_14(0.02), 12, 0.04, 2e5, 2500);
+        auto e = scenes::packed<freezing>(s, shapes::apollonian_14(circumscribed(0.02)), 12, 0.04, 2e5, 2500);
         engine<freezing> fresh = e;
         const auto press = [](engine<freezing>& one) {
             one.settings.breakage.strength.sigma0 = 3e5;

@@ -58,7 +58,7 @@ struct comparison {
 } // namespace
 
 TEST_CASE("a grain of four pebbles between rough platens breaks at the force of one that is bonded from the start") {
-    const comparison c(shapes::tetrahedron_4(0.02), 8);
+    const comparison c(shapes::tetrahedron_4(circumscribed(0.02)), 8);
     CHECK(median(c.first) == Approx(1.0).epsilon(0.005));
     CHECK(c.within(c.first, 0.015) >= 0.75);
     CHECK(median(c.peak) == Approx(1.0).epsilon(0.01));
@@ -66,13 +66,13 @@ TEST_CASE("a grain of four pebbles between rough platens breaks at the force of 
 }
 
 TEST_CASE("a grain of fourteen pebbles between rough platens, too") {
-    const comparison c(shapes::apollonian_14(0.02), 5);
+    const comparison c(shapes::apollonian_14(circumscribed(0.02)), 5);
     CHECK(median(c.first) == Approx(1.0).epsilon(0.015));
     CHECK(median(c.peak) == Approx(1.0).epsilon(0.02));
 }
 
 TEST_CASE("a burst begins with the worst bond at its strength and ends in rigid pieces that break on by their bonds") {
-    auto e = crushed::seated<rigid_bonded>(shapes::apollonian_14(0.02), 9);
+    auto e = crushed::seated<rigid_bonded>(shapes::apollonian_14(circumscribed(0.02)), 9);
     e.drives.platens.value = 0.1;
     std::vector<fracture_event> events;
     int bursts = 0;
@@ -112,8 +112,8 @@ TEST_CASE("a burst begins with the worst bond at its strength and ends in rigid 
 
 TEST_CASE("the plan scales statics until the worst bond is just at its strength, which follows the grain's") {
     struct view {
-        bonds::lattice own{shapes::tetrahedron_4(0.02), bonds::parallel{}, 2650.0};
-        clast::shape form = shapes::tetrahedron_4(0.02);
+        bonds::lattice own{shapes::tetrahedron_4(circumscribed(0.02)), bonds::parallel{}, 2650.0};
+        clast::shape form = shapes::tetrahedron_4(circumscribed(0.02));
         std::vector<bonds::pebble_load> load{4};
         double factor = 1.0;
         const clast::shape& shape() const { return form; }
@@ -154,7 +154,7 @@ TEST_CASE("pieces keep the strength factor of the grain that they come from") {
     auto s = scenes::settings<scattered>(1e15, 0.005);
     s.breakage.m = 2.0;
     s.replacement.singles_stay_balls = false, s.replacement.check_interval = 1; // the collision is short
-    engine<scattered> e = scenes::collision(s, shapes::apollonian_14(0.02));
+    engine<scattered> e = scenes::collision(s, shapes::apollonian_14(circumscribed(0.02)));
     for (int k = 0; k < 4000 && e.grains.grain_count() < 4; ++k) e.step();
     e.take_events();
     REQUIRE(e.grains.grain_count() >= 4);
@@ -175,7 +175,7 @@ TEST_CASE("threads and checkpoints in the middle of a burst make no difference")
         auto s = scenes::settings<policies>(1e15, 0.1);
         s.run = execution(threads);
         s.contacts_per_thread = 8;
-        auto e = scenes::packed<policies>(s, shapes::apollonian_14(0.02), 12, 0.04, 2e5, 2500);
+        auto e = scenes::packed<policies>(s, shapes::apollonian_14(circumscribed(0.02)), 12, 0.04, 2e5, 2500);
         engine<policies> fresh = e;
         const auto press = [](engine<policies>& one) {
             one.breakage_on = true;
