@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clast/engine/light_bodies.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -33,4 +34,31 @@ TEST_CASE("a replacement never shrinks the step: light bodies take sub-steps") {
     }
     CHECK(e.totals().replaced == 1);
     CHECK(e.grains.is_clump(0) == false);
+}
+
+TEST_CASE("a sub-step is within what every ball allows by itself, that of a cluster as well") {
+    auto s = scenes::settings<brittle>(never);
+    bodies::clumps one = scenes::empty(shapes::apollonian_14(0.02));
+    one.add(0, {}, {});
+    double lightest = 1.0;
+    for (const auto& p : one.shapes[0].pebbles) lightest = std::min(lightest, one.density * sphere_volume(p.radius));
+    const auto around = scenes::cylinder_around(one, 1e-6);
+    engine<brittle> e(s, std::move(one), boundaries::solid_strips(around));
+    scenes::set_utilisation(e, 0.95);
+    e.settings.breakage.strength.sigma0 = 1e-9; // replaced at once
+    e.step(2);
+    REQUIRE(e.totals().replaced == 1);
+    e.breakage_on = false;
+    e.step(100);
+    REQUIRE(e.totals().broken_tension + e.totals().broken_shear == 0);
+    // on the lightest ball three contacts, whose stiffness is a mean over directions
+    const double k = 3.0 * (s.grain_contact.kn + 2.0 * s.grain_contact.ks) / 3.0;
+    CHECK(e.dt() / e.light_steps() <= s.safety * std::sqrt(lightest / k));
+    // and the one at the platen its spring
+    const auto& g = e.grains;
+    e.each_wall_row([&](const boundaries::wall_row& w) {
+        if (w.touch.size == 0) return;
+        const double mass = g.ball_mass(static_cast<std::size_t>(w.pebble));
+        CHECK(e.dt() / e.light_steps() <= s.safety * std::sqrt(mass / s.platen_contact.kn));
+    });
 }

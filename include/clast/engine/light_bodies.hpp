@@ -217,46 +217,23 @@ template <class S> void bring_balls_to_step(S& s) {
 
 // ---- sub-steps ------------------------------------------------------------------------------------------------------
 
-/// Step (s) that a piece of a cluster allows, with its own mass and external contacts; its balls are among those from
-/// place begin to end - 1 of all. stiffness: of a typical contact (N/m).
-template <class S>
-double fragment_limit(const S& s, std::int32_t piece, std::size_t begin, std::size_t end, double stiffness) {
-    const auto each_ball = [&](auto&& f) {
-        for (std::size_t a = begin; a < end; ++a)
-            if (s.broken.fragment[s.at(s.broken.balls[a])] == piece) f(s.broken.balls[a]);
-    };
-    double mass = 0.0;
-    vec3 centre;
-    each_ball([&](std::int32_t p) {
-        mass += s.grains.ball_mass(s.at(p));
-        centre += s.grains.ball_mass(s.at(p)) * s.position(p);
-    });
-    centre = centre / mass;
+/// Step (s) that a ball allows, with its own mass and its contacts. stiffness: of a typical contact (N/m).
+template <class S> double ball_limit(const S& s, std::int32_t pebble, double stiffness) {
+    const double mass = s.grains.ball_mass(s.at(pebble)), inertia = s.grains.ball_inertia(s.at(pebble));
     stiffness_sum k(mat3::identity());
-    mat3 tensor;
-    each_ball([&](std::int32_t p) {
-        const vec3 arm = s.position(p) - centre;
-        const double m = s.grains.ball_mass(s.at(p));
-        tensor += (s.grains.ball_inertia(s.at(p)) + m * norm2(arm)) * mat3::identity() + (-m) * outer(arm, arm);
-        add_stiffness(s, k, s.light_of, s.grains.ball(p), s.light, s.light_wall, centre);
-    });
+    add_stiffness(s, k, s.light_of, s.grains.ball(pebble), s.light, s.light_wall, s.position(pebble));
     return std::min(typical_limit(s, mass, stiffness),
-                    k.time_step(mass, {tensor(0, 0), tensor(1, 1), tensor(2, 2)}, s.settings.safety));
+                    k.time_step(mass, {inertia, inertia, inertia}, s.settings.safety));
 }
-/// Sub-steps of light bodies: the smallest limit over fragments. Follows estimate_step().
+/// Sub-steps of light bodies: the smallest limit over balls, each by itself. A cluster is as slow as it is heavy only
+/// as long as its bonds are far stiffer than its contacts, and none of them breaks: a small ball at its surface that is
+/// let go within a sub-step has the contact force of the whole for the rest of it. Follows estimate_step().
 template <class S> void estimate_light_steps(S& s) {
     if constexpr (S::breakable) {
         const std::vector<std::int32_t>& balls = s.broken.balls;
         const double stiffness = balls.empty() ? 0.0 : typical_stiffness(s);
-        double limit = s.dt;
-        for (std::size_t k = 0, end = 0; k < balls.size(); k = end) {
-            // the balls of one cluster are consecutive; pieces of it are looked at one by one
-            const std::int32_t g = s.grains.mother[s.at(balls[k])];
-            while (end < balls.size() && s.grains.mother[s.at(balls[end])] == g) ++end;
-            for (std::size_t a = k; a < end; ++a)
-                if (s.broken.fragment[s.at(balls[a])] == balls[a])
-                    limit = std::min(limit, fragment_limit(s, balls[a], k, end, stiffness));
-        }
+        const double limit = -s.settings.run.max(balls.size(), -s.dt,
+                                                 [&](std::size_t k) { return -ball_limit(s, balls[k], stiffness); });
         // the span is (old dt + dt) / 2, and dt grows by 2 % at most
         s.light_steps =
             std::max(1, static_cast<int>(std::ceil(std::max(s.dt, 0.5 * s.dt + s.broken.lag) / limit - 1e-9)));
