@@ -259,6 +259,7 @@ template <class Test> run_facts facts_of(Test& test, const char* bundle) {
             .more = {{"list_searches", static_cast<double>(test.sim().totals().rebuilds)},
                      {"list_renewals", static_cast<double>(test.sim().totals().renewals)},
                      {"sub_steps_of_light_bodies", static_cast<double>(test.sim().light_steps())},
+                     {"light_bodies_take_sub_steps", test.sim().takes_sub_steps() ? 1.0 : 0.0},
                      {"tile_steps_at_speed_limit_share",
                       counters.tile_steps > 0
                           ? static_cast<double>(counters.capped) / static_cast<double>(counters.tile_steps)

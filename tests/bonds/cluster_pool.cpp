@@ -680,3 +680,21 @@ TEST_CASE("a cluster that is dissolved has no bond, no energy and no seat among 
     CHECK((pool.intact_bonds(0) == 6 && pool.intact_bonds(2) == 6 && pool.intact_bonds(1) == 0));
     CHECK(pool.get(2, 5).n == 100.0);
 }
+
+TEST_CASE("the longest step is that of the fastest cluster with a bond left, and of none where there is none") {
+    cluster_pool pool(lattice(shapes::tetrahedron_4(0.02), parallel{}, 2650.0), 0.0);
+    CHECK(std::isinf(pool.longest_step()));
+    const std::vector<state> born(6);
+    pool.add(born);
+    const double own = pool.longest_step();
+    CHECK(own == Approx(1.0 / pool.shape().highest_frequency).epsilon(1e-12));
+    CHECK((pool.substeps(0.999 * own) == 1 && pool.substeps(1.001 * own) == 2));
+    // as stiff and an eighth of the mass and of the moments over lengths squared: frequencies go with scale^(-3/2)
+    const std::size_t small = pool.add(born, 1.0, {0.5});
+    CHECK(pool.longest_step() <= own / std::sqrt(8.0));
+    CHECK(pool.substeps(pool.longest_step(), {0.5}) == 1);
+    pool.dissolve(small);
+    CHECK(pool.longest_step() == own);
+    pool.dissolve(0);
+    CHECK(std::isinf(pool.longest_step()));
+}

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <clast/core/errors.hpp>
 #include <clast/engine/engine.hpp>
 
 #include <catch.hpp>
@@ -61,4 +62,40 @@ TEST_CASE("a sub-step is within what every ball allows by itself, that of a clus
         const double mass = g.ball_mass(static_cast<std::size_t>(w.pebble));
         CHECK(e.dt() / e.light_steps() <= s.safety * std::sqrt(mass / s.platen_contact.kn));
     });
+}
+
+TEST_CASE("with little damping all bodies go by one step, within what balls and their bonds allow") {
+    auto s = scenes::settings<brittle>(never);
+    engine<brittle> e = scenes::pressed(s, 400.0);
+    const double dt = e.dt();
+    e.settings.scheme.damping = 0.0;
+    CHECK_FALSE(e.takes_sub_steps());
+    e.step(50);
+    CHECK(e.dt() == dt); // nothing is replaced yet
+    scenes::set_utilisation(e, 0.95);
+    while (e.totals().replaced == 0) e.step();
+    e.step(2); // what balls trail is half of the long step first
+    CHECK(e.light_steps() == 1);
+    CHECK(e.breakage().pools[0].substeps(e.dt()) == 1);
+    CHECK(e.dt() < 0.5 * dt);
+    const double small = e.dt();
+    e.step(100);
+    CHECK(e.dt() == small);
+    CHECK(e.light_steps() == 1);
+    e.settings.scheme.damping = 0.7;
+    CHECK(e.takes_sub_steps());
+    e.step(20000); // a step grows slowly
+    CHECK(e.dt() >= dt);
+    // by wish
+    e.settings.light_bodies = stepping::one_step;
+    CHECK_FALSE(e.takes_sub_steps());
+    e.step(52);
+    CHECK(e.dt() == Approx(small).epsilon(1e-9));
+    // undamped in sub-steps, or with longer steps than have been tried: refused, at any time
+    e.settings.light_bodies = stepping::sub_steps;
+    e.step(50);
+    e.settings.scheme.damping = 0.0;
+    CHECK_THROWS_AS(e.step(50), input_error);
+    e.settings.scheme.damping = 0.7, e.settings.safety = 0.9;
+    CHECK_THROWS_AS(e.step(50), input_error);
 }

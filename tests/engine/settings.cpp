@@ -51,6 +51,14 @@ TEST_CASE("values that make no sense are refused by the name of the member, with
     for (const double wrong : {1.5, -0.1, nan})
         names(refusal([&](settings_type& s, bodies::spheres&) { s.scheme.damping = wrong; }),
               "engine_settings.scheme.damping");
+    for (const double wrong : {0.0, 0.29})
+        names(refusal([&](settings_type& s, bodies::spheres&) {
+                  s.light_bodies = stepping::sub_steps, s.scheme.damping = wrong;
+              }),
+              "engine_settings.light_bodies");
+    names(refusal([](settings_type& s, bodies::spheres&) { s.light_bodies = stepping::sub_steps, s.safety = 0.85; }),
+          "engine_settings.light_bodies");
+    CHECK(refusal([](settings_type& s, bodies::spheres&) { s.light_bodies = stepping::sub_steps; }).empty());
     for (const double wrong : {-0.3, nan, inf})
         names(refusal([&](settings_type& s, bodies::spheres&) { s.grain_contact.mu = wrong; }),
               "engine_settings.grain_contact.mu");
@@ -69,4 +77,18 @@ TEST_CASE("values that make no sense are refused by the name of the member, with
           }).empty());
     names(refusal([](settings_type& s, bodies::spheres&) { s.expected_overlap = 0.0; }),
           "engine_settings.expected_overlap");
+}
+
+TEST_CASE("light bodies take sub-steps where these have been found stable, if not told otherwise") {
+    settings_type s{
+        .grain_contact = {}, .platen_contact = {}, .lateral_contact = {}, .breakage = {}, .replacement = {}};
+    CHECK(takes_sub_steps(s)); // the defaults
+    s.scheme.damping = 0.3;
+    CHECK(takes_sub_steps(s));
+    s.scheme.damping = 0.29;
+    CHECK_FALSE(takes_sub_steps(s));
+    s.scheme.damping = 0.7, s.safety = 0.81;
+    CHECK_FALSE(takes_sub_steps(s));
+    s.safety = 0.8, s.light_bodies = stepping::one_step;
+    CHECK_FALSE(takes_sub_steps(s));
 }

@@ -44,7 +44,7 @@ struct policies : triaxial_policies_default {
     using boundary = boundaries::box;
     using breakage = named;
 };
-using scene = engine<policies>;
+using simulator = engine<policies>;
 
 inline constexpr double kn = 2.9e6, ks = 1.45e6, wall = 5.7e6; // N/m
 
@@ -66,14 +66,14 @@ inline engine_settings<policies> settings(whom who, const bonds::parallel& bond,
             .safety = safety};
 }
 /// Steps until kinetic energy is nothing beside the elastic one.
-inline void settle(scene& e, int most) {
+inline void settle(simulator& e, int most) {
     for (int k = 0; k < most / 1000; ++k) {
         e.step(1000);
         if (e.kinetic_energy() < 1e-24 * e.elastic_energy()) break;
     }
 }
 /// Grains nx by nx by nz at random orientations in a box, pressed to about 0.3 MPa.
-inline scene packing(const shape& s, int nx, int nz, unsigned seed, double mu) {
+inline simulator packing(const shape& s, int nx, int nz, unsigned seed, double mu) {
     const double a = 0.0204, speed = 0.3;
     bodies::clumps rock;
     rock.shapes.push_back(s);
@@ -85,7 +85,7 @@ inline scene packing(const shape& s, int nx, int nz, unsigned seed, double mu) {
                 rock.add(0, {a * (x + 0.5), a * (y + 0.5), a * (z + 0.5)}, orientation(random));
     for (auto& m : rock.motion) m.v = vec3{any(), any(), any()};
     boundaries::box around({{0, 0, 0}, {a * nx, a * nx, a * nz}, 3.2e8, wall});
-    scene e(settings(whom::nobody, stiff(100.0), 0.3, 0.8, 0.7 * mu), std::move(rock), std::move(around));
+    simulator e(settings(whom::nobody, stiff(100.0), 0.3, 0.8, 0.7 * mu), std::move(rock), std::move(around));
     e.breakage_on = false;
     const auto least = [&] {
         return std::min(
@@ -105,23 +105,29 @@ inline scene packing(const shape& s, int nx, int nz, unsigned seed, double mu) {
     settle(e, 200000);
     return e;
 }
-/// Some grains of it are replaced, at rest again and with another damping.
-inline scene replaced(const scene& rest, whom who, const bonds::parallel& bond, double damping, double safety) {
+/// Some grains of it are replaced, at rest again and with another damping. Where bonds are so weak that they let go at
+/// once, what is loose is pressed again.
+inline simulator replaced(const simulator& rest, whom who, const bonds::parallel& bond, double damping, double safety) {
     const auto& grains = rest.grains;
-    scene e(settings(who, bond, 0.7, 0.2, rest.friction()), grains, rest.boundary);
+    simulator e(settings(who, bond, 0.7, 0.2, rest.friction()), grains, rest.boundary);
     e.step(2);
     e.breakage_on = false;
+    if (bond.tensile_strength < 1.0) {
+        e.drives.platens = e.drives.lateral = {boundaries::drive::mode::servo, 2e5, 0.1, 0.3};
+        e.step(20000);
+        e.drives.platens = e.drives.lateral = {};
+    }
     settle(e, 40000);
     e.settings.safety = safety; // a step grows slowly, and shrinks at once
     e.step(5000);
     settle(e, 20000);
-    scene other(settings(who, bond, damping, safety, rest.friction()), grains, rest.boundary);
+    simulator other(settings(who, bond, damping, safety, rest.friction()), grains, rest.boundary);
     from_bytes(to_bytes(e), other);
     other.breakage_on = false;
     return other;
 }
 /// Gives all bodies random velocities with this share of the elastic energy in all.
-inline void shake(scene& e, double share, unsigned seed) {
+inline void shake(simulator& e, double share, unsigned seed) {
     random_stream random(seed, 1);
     const auto any = [&] { return vec3{uniform01(random) - 0.5, uniform01(random) - 0.5, uniform01(random) - 0.5}; };
     auto& g = e.grains;
@@ -146,7 +152,7 @@ inline void shake(scene& e, double share, unsigned seed) {
 }
 /// Kinetic energy after noise of 1e-14 of the elastic energy and some steps, over that of the noise; 1e10 or more if
 /// it went so far before the end.
-inline double growth(scene& e, int steps) {
+inline double growth(simulator& e, int steps) {
     e.step(101); // the step of its own settings
     shake(e, 1e-14, 7);
     const double elastic = e.elastic_energy();

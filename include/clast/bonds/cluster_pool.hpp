@@ -164,6 +164,14 @@ class cluster_pool {
     /// a = 0.7; the rest is margin.
     int substeps(double dt, likeness to = {}) const { return substeps_of(dt, class_of(to)); }
 
+    /// Longest step (s) that all clusters with intact bonds take at once (substeps() == 1); infinite without any.
+    double longest_step() const {
+        int most = std::numeric_limits<int>::min();
+        for (std::size_t batch = 0; batch < batches(); ++batch) most = std::max(most, class_of_batch(batch));
+        return most == std::numeric_limits<int>::min() ? std::numeric_limits<double>::infinity()
+                                                       : 1.0 / frequency_of(most);
+    }
+
     /// Advances the clusters of a batch by dt under frozen loads. `balls` and `load` hold the pebbles of the lanes,
     /// lane by lane (lanes x pebbles); `displacement` receives how far each ball moved. Normals are those of the middle
     /// of the step: with those of its start, a 4B that turns by a quarter at 200 rad/s in steps of 1 us strains its
@@ -276,9 +284,9 @@ class cluster_pool {
             if (living(batch, l) >= 0) most = std::max(most, class_of(like_[batch * lanes + l]));
         return most;
     }
+    double frequency_of(int of_class) const { return shape_.highest_frequency * std::exp2(0.25 * of_class); }
     int substeps_of(double dt, int of_class) const {
-        const double highest = shape_.highest_frequency * std::exp2(0.25 * of_class);
-        return std::max(1, static_cast<int>(std::ceil(dt * highest)));
+        return std::max(1, static_cast<int>(std::ceil(dt * frequency_of(of_class))));
     }
     /// Whole batches for all seats.
     void make_room() {

@@ -84,8 +84,10 @@ template <class P> class engine : private scene<P> {
     double dt() const { return scene_type::dt; }
     double time() const { return scene_type::totals.time; }
     const engine_totals& totals() const { return scene_type::totals; }
-    double skin() const { return this->near.widths.skin(); } ///< of the present lists (m)
-    int light_steps() const { return scene_type::light_steps; }
+    double skin() const { return this->near.widths.skin(); }    ///< of the present lists (m)
+    int light_steps() const { return scene_type::light_steps; } ///< of balls and clusters in a step
+    /// Whether balls and clusters take sub-steps where there are any; else all bodies go by one step (stepping).
+    bool takes_sub_steps() const { return breakable && clast::takes_sub_steps(settings); }
 
     /// Replaces the boundary by another in the same place (a membrane for the vessel), and the lists with it.
     void set_boundary(boundary_type b) {

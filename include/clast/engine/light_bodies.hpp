@@ -3,8 +3,9 @@
 //
 // A contact that involves a ball is integrated with the step that the lightest ball needs, over the span from
 // t_n - dt/2 to t_n + dt/2; its mean force over that span acts on the clump at t_n, which is what a leapfrog asks for.
-// Bonds take a smaller step still. So a replacement never shrinks the step of the specimen, and every force has the
-// opposite force in the same step.
+// Bonds take a smaller step still. So a replacement does not shrink the step of the specimen, and every force has the
+// opposite force in the same step. Sub-steps make energy that damping has to take; where it takes too little, all
+// bodies go by one step (stepping, settings.hpp).
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <clast/bodies/contact_list.hpp>
@@ -225,15 +227,31 @@ template <class S> double ball_limit(const S& s, std::int32_t pebble, double sti
     return std::min(typical_limit(s, mass, stiffness),
                     k.time_step(mass, {inertia, inertia, inertia}, s.settings.safety));
 }
-/// Sub-steps of light bodies: the smallest limit over balls, each by itself. A cluster is as slow as it is heavy only
-/// as long as its bonds are far stiffer than its contacts, and none of them breaks: a small ball at its surface that is
-/// let go within a sub-step has the contact force of the whole for the rest of it. Follows estimate_step().
+/// Step (s) that all balls allow, each by itself. A cluster is as slow as it is heavy only as long as its bonds are far
+/// stiffer than its contacts, and none of them breaks: a small ball at its surface that is let go within a sub-step has
+/// the contact force of the whole for the rest of it. Infinite without balls.
+template <class S> double limit_of_balls(const S& s) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const std::vector<std::int32_t>& balls = s.broken.balls;
+    if (balls.empty()) return infinite;
+    const double stiffness = typical_stiffness(s);
+    return -s.settings.run.max(balls.size(), -infinite,
+                               [&](std::size_t k) { return -ball_limit(s, balls[k], stiffness); });
+}
+/// Shrinks the step to what balls and bonds together allow, so that neither takes another: frequencies add up in their
+/// squares. What balls trail is still half of a longer step, which takes sub-steps for once.
+template <class S> void take_one_step(S& s, double balls) {
+    double bonds = std::numeric_limits<double>::infinity();
+    for (const bonds::cluster_pool& pool : s.broken.pools) bonds = std::min(bonds, pool.longest_step());
+    s.dt = std::min(s.dt, 1.0 / std::sqrt(1.0 / (balls * balls) + 1.0 / (bonds * bonds)));
+    s.estimate_due = s.estimate_due || s.broken.lag > 0.5 * s.dt;
+}
+/// Sub-steps of light bodies, or a step that they can take as well (stepping). Follows estimate_step().
 template <class S> void estimate_light_steps(S& s) {
     if constexpr (S::breakable) {
-        const std::vector<std::int32_t>& balls = s.broken.balls;
-        const double stiffness = balls.empty() ? 0.0 : typical_stiffness(s);
-        const double limit = -s.settings.run.max(balls.size(), -s.dt,
-                                                 [&](std::size_t k) { return -ball_limit(s, balls[k], stiffness); });
+        const double balls = limit_of_balls(s);
+        if (s.broken.has_balls() && !takes_sub_steps(s.settings)) take_one_step(s, balls);
+        const double limit = std::min(s.dt, balls);
         // the span is (old dt + dt) / 2, and dt grows by 2 % at most
         s.light_steps =
             std::max(1, static_cast<int>(std::ceil(std::max(s.dt, 0.5 * s.dt + s.broken.lag) / limit - 1e-9)));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -15,6 +16,17 @@
 
 namespace clast {
 
+/// How balls and clusters of a breakable scene are stepped beside clumps. Where nothing is replaced all are the same.
+///
+/// Sub-steps are cheap, because a replacement does not shrink the step of the specimen, but they make energy: noise
+/// grows wherever a ball takes two of them, or a cluster two steps of its bonds, and only local damping holds it. One
+/// step for all, the smallest that any body or bond allows, is a leapfrog of the whole and makes none.
+enum class stepping : std::uint8_t {
+    automatic, ///< sub-steps where they have been found stable (sub_steps_are_stable), else one step (default)
+    sub_steps, ///< refused where they have not
+    one_step
+};
+
 /// Parameters of an engine that are values, not types. SI units.
 template <class P> struct engine_settings {
     typename P::contact grain_contact;   ///< pebble against pebble
@@ -22,9 +34,10 @@ template <class P> struct engine_settings {
     typename P::contact lateral_contact; ///< pebble against the lateral wall
     typename P::breakage breakage;
     typename P::replacement replacement;
-    typename P::scheme scheme{}; ///< how bodies go on, and local damping
-    double safety = 0.8;         ///< of the time-step estimate, in (0, 1]
-    double skin = 0.0;           ///< m: where the skin of the lists starts; 0: from the size of the grains
+    typename P::scheme scheme{};                 ///< how bodies go on, and local damping
+    double safety = 0.8;                         ///< of the time-step estimate, in (0, 1]
+    stepping light_bodies = stepping::automatic; ///< balls and clusters beside clumps
+    double skin = 0.0; ///< m: where the skin of the lists starts; 0: from the size of the grains
     /// s: bound of the time step beside that of contacts, for what these do not tell: a stiff field, a scheme with a
     /// limit of its own. Above 0; infinite, which is none, where bodies and the law of the grains give a finite step.
     double largest_step = std::numeric_limits<double>::infinity();
@@ -34,6 +47,30 @@ template <class P> struct engine_settings {
     std::size_t contacts_per_thread = 256; ///< a sweep with fewer is left to fewer threads; the bits are the same
     [[no_unique_address]] typename P::field field{}; ///< on every body; like damping not part of a checkpoint
 };
+
+/// Least local damping at which, and highest safety up to which, sub-steps of light bodies have been found to let noise
+/// die out, with a margin (examples/manual/engine.md has the map).
+inline constexpr double least_damping_of_sub_steps = 0.3, highest_safety_of_sub_steps = 0.8;
+
+/// Whether damping is strong enough, and steps are short enough, for sub-steps of light bodies.
+template <class P> bool sub_steps_are_stable(const engine_settings<P>& s) {
+    if constexpr (requires { s.scheme.damping; })
+        return s.scheme.damping >= least_damping_of_sub_steps && s.safety <= highest_safety_of_sub_steps;
+    return false;
+}
+/// Throws input_error where sub-steps are asked for that are not stable.
+template <class P> void check_stepping(const engine_settings<P>& s) {
+    if (s.light_bodies != stepping::sub_steps || sub_steps_are_stable(s)) return;
+    throw input_error("engine_settings.light_bodies", "stepping::sub_steps",
+                      fmt::format("with damping >= {:g} and safety <= {:g}: with less damping they make energy",
+                                  least_damping_of_sub_steps, highest_safety_of_sub_steps),
+                      "Leave it automatic: all bodies go by one step then.");
+}
+/// Whether light bodies take sub-steps, by the present settings.
+template <class P> bool takes_sub_steps(const engine_settings<P>& s) {
+    check_stepping(s);
+    return s.light_bodies != stepping::one_step && sub_steps_are_stable(s);
+}
 
 /// Throws input_error, naming the member, where a setting makes no sense. density: of the bodies (kg/m^3).
 template <class P> void check(const engine_settings<P>& s, double density) {
@@ -45,6 +82,7 @@ template <class P> void check(const engine_settings<P>& s, double density) {
     if constexpr (requires { s.scheme.damping; })
         demand(s.scheme.damping >= 0.0 && s.scheme.damping < 1.0, "engine_settings.scheme.damping", s.scheme.damping,
                "0 to below 1", "0.7 is the default; 0 takes nothing.");
+    check_stepping(s);
     demand(s.skin >= 0.0 && std::isfinite(s.skin), "engine_settings.skin", s.skin, ">= 0 m",
            "0 takes it from the size of the grains.");
     demand(s.largest_step > 0.0, "engine_settings.largest_step", s.largest_step, "> 0 s",
