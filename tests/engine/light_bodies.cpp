@@ -99,3 +99,29 @@ TEST_CASE("with little damping all bodies go by one step, within what balls and 
     e.settings.scheme.damping = 0.7, e.settings.safety = 0.9;
     CHECK_THROWS_AS(e.step(50), input_error);
 }
+
+TEST_CASE("small balls that are let go under the load of their grain take no more energy than there is") {
+    // a ball that stands on three smaller ones and is pressed on three others, whose bonds fail
+    for (const double ratio : {0.1, 0.3, 1.0}) {
+        INFO("ratio of radii " << ratio);
+        const double r = 0.01;
+        std::vector<shape_pebble> balls{{{}, r}};
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0}) {
+                vec3 at;
+                at[axis] = side * r * (1.0 + ratio);
+                balls.push_back({at, r * ratio});
+            }
+        bodies::clumps one = scenes::empty(make_shape("studs", balls));
+        one.add(0, {}, scenes::turning(unit(vec3{1, 1, 1}), {0, 0, 1}));
+        auto around = scenes::cylinder_around(one);
+        around.smallest_radius = r * ratio;
+        engine<brittle> e(scenes::settings<brittle>(1.0, 0.2), std::move(one), boundaries::solid_strips(around));
+        e.drives.platens = {.how = boundaries::drive::mode::velocity, .value = 0.05};
+        const auto broken = [&] { return e.totals().broken_tension + e.totals().broken_shear; };
+        for (int k = 0; k < 4000 && broken() == 0; ++k) e.step();
+        REQUIRE(broken() > 0);
+        e.step(300);
+        CHECK(std::abs(scenes::residual(e)) < 0.01 * e.totals().boundary_work);
+    }
+}
