@@ -143,8 +143,12 @@ template <class P> class engine : private scene<P> {
             throw input_error("set_friction", fmt::format("{:g}", mu), ">= 0, finite", "The paper uses 0.3.");
         if constexpr (requires { settings.grain_contact.mu; }) settings.grain_contact.mu = mu;
     }
-    /// To be called after velocities or the field were set by hand, so that the audit knows of their energy.
-    void count_initial_energy() { scene_type::totals.initial_energy = kinetic_energy() + potential_energy(); }
+    /// To be called after velocities or the field were set by hand, so that the audit knows of their energy. Before the
+    /// first step this holds what contacts and walls store as well, of a scene that begins loaded.
+    void count_initial_energy() {
+        auto& t = scene_type::totals;
+        t.initial_energy = kinetic_energy() + potential_energy() + (t.steps == 0 ? elastic_energy() : 0.0);
+    }
     /// The same while a scene runs. before: kinetic and potential energy before velocities were set (J).
     void count_energy_since(double before) {
         scene_type::totals.initial_energy += kinetic_energy() + potential_energy() - before;
@@ -211,6 +215,7 @@ template <class P> class engine : private scene<P> {
         const double then = potential_energy();
         estimate(true);
         s.totals.initial_energy += potential_energy() - then; // it is that of half a step ago, and there is a step now
+        s.totals.initial_energy += elastic_energy();
     }
     list_widths first_widths() const {
         return list_widths(settings.skin > 0.0 ? settings.skin : 0.002 * mean_bounding_radius());

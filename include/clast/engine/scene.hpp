@@ -36,7 +36,7 @@ namespace clast {
 struct engine_totals {
     double boundary_work = 0.0;    ///< done on the specimen by platens, lateral wall, moving images and constraints
     double bond_dissipation = 0.0; ///< released by broken bonds, less what was put into bonds at birth
-    double initial_energy = 0.0;   ///< brought in with initial velocities and places in a field
+    double initial_energy = 0.0;   ///< brought in with initial velocities, places in a field and overlaps
     std::int64_t steps = 0;
     std::int64_t rebuilds = 0; ///< searches for neighbours
     std::int64_t renewals = 0; ///< of the lists, from what a search has found
