@@ -50,8 +50,8 @@ bonds::parallel bond_of(double stiffness, const std::string& how) {
 }
 void map(const std::vector<std::string>& a) {
     using noise::whom;
-    const shape grain = a[0] == "4B"    ? shapes::tetrahedron_4(0.02)
-                        : a[0] == "14B" ? shapes::apollonian_14(0.02)
+    const shape grain = a[0] == "4B"    ? shapes::tetrahedron_4(circumscribed(0.02))
+                        : a[0] == "14B" ? shapes::apollonian_14(circumscribed(0.02))
                                         : studs();
     const whom who = a[1] == "one" ? whom::one : a[1] == "half" ? whom::half : whom::all;
     const int steps = std::stoi(a[6]);

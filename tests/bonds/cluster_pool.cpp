@@ -682,7 +682,7 @@ TEST_CASE("a cluster that is dissolved has no bond, no energy and no seat among 
 }
 
 TEST_CASE("the longest step is that of the fastest cluster with a bond left, and of none where there is none") {
-    cluster_pool pool(lattice(shapes::tetrahedron_4(0.02), parallel{}, 2650.0), 0.0);
+    cluster_pool pool(lattice(shapes::tetrahedron_4(circumscribed(0.02)), parallel{}, 2650.0), 0.0);
     CHECK(std::isinf(pool.longest_step()));
     const std::vector<state> born(6);
     pool.add(born);

@@ -39,7 +39,7 @@ TEST_CASE("a replacement never shrinks the step: light bodies take sub-steps") {
 
 TEST_CASE("a sub-step is within what every ball allows by itself, that of a cluster as well") {
     auto s = scenes::settings<brittle>(never);
-    bodies::clumps one = scenes::empty(shapes::apollonian_14(0.02));
+    bodies::clumps one = scenes::empty(shapes::apollonian_14(circumscribed(0.02)));
     one.add(0, {}, {});
     double lightest = 1.0;
     for (const auto& p : one.shapes[0].pebbles) lightest = std::min(lightest, one.density * sphere_volume(p.radius));

@@ -11,7 +11,7 @@ using noise::simulator;
 using noise::whom;
 
 TEST_CASE("damped as by default, clusters in sub-steps let noise die out, however soft or stiff their bonds are") {
-    const auto rest = noise::packing(shapes::apollonian_14(0.02), 2, 3, 3, 0.3);
+    const auto rest = noise::packing(shapes::apollonian_14(circumscribed(0.02)), 2, 3, 3, 0.3);
     const auto dies_out = [&](whom who, double ratio) {
         const auto base = noise::replaced(rest, who, noise::stiff(ratio), 0.7, 0.8);
         REQUIRE(base.kinetic_energy() < 1e-18 * base.elastic_energy());
@@ -40,8 +40,9 @@ TEST_CASE("undamped, noise in packings of clumps and clusters does not grow, up 
             CHECK(e.light_steps() == 1);
         }
     };
-    const auto small = noise::packing(shapes::tetrahedron_4(0.02), 2, 3, 5, 0.0);
+    const auto small = noise::packing(shapes::tetrahedron_4(circumscribed(0.02)), 2, 3, 5, 0.0);
     for (const whom who : {whom::one, whom::half, whom::all})
         for (const double ratio : {0.5, 3.0, 331.0}) stays(small, who, noise::stiff(ratio), 1000);
-    stays(noise::packing(shapes::apollonian_14(0.02), 2, 3, 3, 0.0), whom::half, noise::stiff(10.0), 1000);
+    stays(noise::packing(shapes::apollonian_14(circumscribed(0.02)), 2, 3, 3, 0.0), whom::half, noise::stiff(10.0),
+          1000);
 }
