@@ -77,7 +77,7 @@ inline simulator packing(const shape& s, int nx, int nz, unsigned seed, double m
     const double a = 0.0204, speed = 0.3;
     bodies::clumps rock;
     rock.shapes.push_back(s);
-    random_stream random(seed, 0);
+    random_stream random{seed, 0};
     const auto any = [&] { return 0.5 * (uniform01(random) - 0.5); };
     for (int z = 0; z < nz; ++z)
         for (int y = 0; y < nx; ++y)
@@ -128,7 +128,7 @@ inline simulator replaced(const simulator& rest, whom who, const bonds::parallel
 }
 /// Gives all bodies random velocities with this share of the elastic energy in all.
 inline void shake(simulator& e, double share, unsigned seed) {
-    random_stream random(seed, 1);
+    random_stream random{seed, 1};
     const auto any = [&] { return vec3{uniform01(random) - 0.5, uniform01(random) - 0.5, uniform01(random) - 0.5}; };
     auto& g = e.grains;
     std::vector<std::size_t> clumps;
