@@ -45,7 +45,6 @@ struct outcome {
     double first = 0.0; ///< force of the platens before the first bond broke (N)
     double peak = 0.0;  ///< largest force before it falls below half of that (N)
     std::int64_t bonds = 0;
-    std::int64_t work = 0; ///< sub-steps of light bodies times their number, and steps
     std::vector<fracture_event> events;
 };
 
@@ -57,7 +56,6 @@ template <class P> outcome crush(engine<P>& e, double way = 0.01) {
     double before = 0.0;
     while (start - e.boundary.height() < way && (o.bonds == 0 || before >= 0.5 * o.peak)) {
         e.step();
-        o.work += e.light_steps();
         const std::vector<fracture_event> events = e.take_events();
         if (!events.empty() && o.bonds == 0) o.first = before;
         o.bonds += static_cast<std::int64_t>(events.size());

@@ -29,6 +29,13 @@ using policies = crushed::policies<rigid_bonded>;
 
 namespace {
 
+struct scattered_strength : criteria::weibull<criteria::nominal_force> {
+    scattered_strength(criteria::crushing_strength s) : weibull{{s}, 2.0, 0} {}
+};
+struct scattered : policies {
+    using breakage = scattered_strength;
+};
+
 double median(std::vector<double> of) {
     std::sort(of.begin(), of.end());
     return 0.5 * (of[(of.size() - 1) / 2] + of[of.size() / 2]);
@@ -36,7 +43,6 @@ double median(std::vector<double> of) {
 /// Grains of some orientations, each by bonds from the start and by this policy.
 struct comparison {
     std::vector<double> first, peak;
-    double work[2] = {0.0, 0.0};
 
     comparison(const shape& form, std::uint64_t count) {
         for (std::uint64_t k = 0; k < count; ++k) {
@@ -148,11 +154,7 @@ TEST_CASE("the plan scales statics until the worst bond is just at its strength,
 }
 
 TEST_CASE("pieces keep the strength factor of the grain that they come from") {
-    struct scattered : policies {
-        using breakage = criteria::weibull<criteria::nominal_force>;
-    };
     auto s = scenes::settings<scattered>(1e15, 0.005);
-    s.breakage.m = 2.0;
     s.replacement.singles_stay_balls = false, s.replacement.check_interval = 1; // the collision is short
     engine<scattered> e = scenes::collision(s, shapes::apollonian_14(circumscribed(0.02)));
     for (int k = 0; k < 4000 && e.grains.grain_count() < 4; ++k) e.step();
