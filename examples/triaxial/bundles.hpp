@@ -12,15 +12,16 @@
 #include <clast/criteria/one_of.hpp>
 #include <clast/criteria/weibull.hpp>
 #include <clast/protocol/triaxial.hpp>
-#include <clast/replacements/modified.hpp>
 #include <clast/replacements/none.hpp>
+#include <clast/replacements/one_of.hpp>
 
 namespace triaxial {
 
-/// Grains that a criterion, picked by name at run time, breaks.
-template <class Boundary> struct modified : clast::triaxial_policies_default {
+/// Grains that break by a criterion and are replaced by a policy, both picked by name at run time.
+template <class Boundary> struct breakable : clast::triaxial_policies_default {
     using boundary = Boundary;
     using breakage = clast::criteria::weibull<clast::criteria::any>;
+    using replacement = clast::replacements::any;
 };
 /// Grains that never break.
 template <class Boundary> struct unbreakable : clast::triaxial_policies_default {
@@ -29,26 +30,26 @@ template <class Boundary> struct unbreakable : clast::triaxial_policies_default 
     using replacement = clast::replacements::none;
 };
 
-using tiles_modified = modified<clast::boundaries::tiles>;
+using tiles_breakable = breakable<clast::boundaries::tiles>;
 using tiles_unbreakable = unbreakable<clast::boundaries::tiles>;
-using rings_modified = modified<clast::boundaries::ring_walls>;
+using rings_breakable = breakable<clast::boundaries::ring_walls>;
 using rings_unbreakable = unbreakable<clast::boundaries::ring_walls>;
-using solid_modified = modified<clast::boundaries::solid_strips>;
+using solid_breakable = breakable<clast::boundaries::solid_strips>;
 using solid_unbreakable = unbreakable<clast::boundaries::solid_strips>;
-using rigid_modified = modified<clast::boundaries::rigid_cylinder>;
+using rigid_breakable = breakable<clast::boundaries::rigid_cylinder>;
 using rigid_unbreakable = unbreakable<clast::boundaries::rigid_cylinder>;
-using box_modified = modified<clast::boundaries::box>;
+using box_breakable = breakable<clast::boundaries::box>;
 using box_unbreakable = unbreakable<clast::boundaries::box>;
 
 } // namespace triaxial
 
-extern template class clast::triaxial_test<triaxial::tiles_modified>;
+extern template class clast::triaxial_test<triaxial::tiles_breakable>;
 extern template class clast::triaxial_test<triaxial::tiles_unbreakable>;
-extern template class clast::triaxial_test<triaxial::solid_modified>;
+extern template class clast::triaxial_test<triaxial::solid_breakable>;
 extern template class clast::triaxial_test<triaxial::solid_unbreakable>;
-extern template class clast::triaxial_test<triaxial::rings_modified>;
+extern template class clast::triaxial_test<triaxial::rings_breakable>;
 extern template class clast::triaxial_test<triaxial::rings_unbreakable>;
-extern template class clast::triaxial_test<triaxial::rigid_modified>;
+extern template class clast::triaxial_test<triaxial::rigid_breakable>;
 extern template class clast::triaxial_test<triaxial::rigid_unbreakable>;
-extern template class clast::triaxial_test<triaxial::box_modified>;
+extern template class clast::triaxial_test<triaxial::box_breakable>;
 extern template class clast::triaxial_test<triaxial::box_unbreakable>;

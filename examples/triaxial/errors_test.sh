@@ -76,7 +76,7 @@ refuse 2 "--membrane-stiffness: '3kN'" "N/m" -- --membrane-stiffness 3kN
 refuse 2 "--weibull: '0'" "1 to 100, or none" -- --weibull 0
 refuse 2 "--membrane: 'rubber'" "tiles, rings, solid, rigid" -- --membrane rubber
 refuse 2 "--criterion: 'tresca'" "nominal_force" "major_principal" "none" -- --criterion tresca
-refuse 2 "--replacement: 'daughters'" "modified, none" -- --replacement daughters
+refuse 2 "--replacement: 'daughters'" "modified, refreezing, rigid_bonded, bonded_from_start, none" -- --replacement daughters
 refuse 2 "--birth: 'hot'" "warm, zero" -- --birth hot
 refuse 2 "--protocol: 'oedometric'" "triaxial, isotropic, unload" -- --protocol oedometric
 refuse 2 "--cycles: '4'" "only with --protocol cyclic" -- --cycles 4

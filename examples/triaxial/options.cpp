@@ -182,7 +182,9 @@ void declare(CLI::App& app, raw& r) {
         "effect; "
         "none: no scatter, and the size effect of 10",
         "10");
-    add("--replacement", r.replacement, "NAME", "what becomes of it: modified (bonded cluster, MPRM), none",
+    add("--replacement", r.replacement, "NAME",
+        "what becomes of it: modified (bonded cluster, MPRM), refreezing (that is rigid again\nonce at rest), "
+        "rigid_bonded (rigid but for moments in which bonds fail),\nbonded_from_start (all grains, slow), none",
         "modified");
     add("--birth", r.birth, "NAME", "forces of new bonds: warm (in equilibrium with the load),\nzero (as in PFC)",
         "warm");
@@ -404,7 +406,8 @@ options checked_options(const raw& r) {
             "true_triaxial", "prepare"});
     choose(o.criterion, r.criterion, "--criterion",
            {"nominal_force", "hertz_literal", "hertz_calibrated", "octahedral", "mean", "major_principal", "none"});
-    choose(o.replacement, r.replacement, "--replacement", {"modified", "none"});
+    choose(o.replacement, r.replacement, "--replacement",
+           {"modified", "refreezing", "rigid_bonded", "bonded_from_start", "none"});
     choose(o.birth, r.birth, "--birth", {"warm", "zero"});
     if (!r.confining.empty())
         o.confining =

@@ -75,7 +75,7 @@ struct options {
     std::string contact_force = "resultant"; ///< what breaks a grain: "resultant" of a neighbour or "single" contact
     double weibull =
         10.0; ///< Weibull modulus of scatter and size effect of strengths; 0: no scatter, size effect of 10
-    std::string replacement = "modified"; ///< "modified" or "none"
+    std::string replacement = "modified"; ///< name of a policy of replacements::any, or "none"
     std::string birth = "warm";           ///< "warm" or "zero"
     bond_reading bond_stiffness_reading = bond_reading::force;
     double bond_stiffness = 9.6e8; ///< normal, in the unit of the reading; shear is half of it

@@ -187,6 +187,27 @@ inline std::vector<clast::stage> stages_of(const options& o) {
     return s;
 }
 
+/// What becomes of a grain that breaks.
+inline clast::replacements::any replacement_of(const options& o) {
+    using namespace clast;
+    bonds::parallel bond;
+    bond.reading = o.bond_stiffness_reading == bond_reading::force     ? bonds::stiffness_reading::force
+                   : o.bond_stiffness_reading == bond_reading::modulus ? bonds::stiffness_reading::modulus
+                                                                       : bonds::stiffness_reading::per_area;
+    bond.normal_stiffness = o.bond_stiffness, bond.shear_stiffness = 0.5 * o.bond_stiffness;
+    bond.tensile_strength = o.rock().bond_tension, bond.cohesion = o.rock().bond_cohesion;
+    const auto how = o.birth == "zero" ? replacements::birth::zero_force : replacements::birth::warm_start;
+    const auto with = [&](auto policy) -> replacements::any {
+        policy.bond = bond;
+        if constexpr (requires { policy.how; }) policy.how = how;
+        return policy;
+    };
+    if (o.replacement == "refreezing") return with(replacements::refreezing{});
+    if (o.replacement == "rigid_bonded") return with(replacements::rigid_bonded{});
+    if (o.replacement == "bonded_from_start") return with(replacements::bonded_from_start{});
+    return with(replacements::modified{});
+}
+
 template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
     using namespace clast;
     table_1 materials = o.stiffness == "series" ? table_1::of_pieces() : table_1{};
@@ -208,18 +229,12 @@ template <class P> clast::triaxial_setup<P> setup_of(const options& o) {
             return {};
         }
     }();
-    typename P::replacement replacement{};
-    if constexpr (P::replacement::replaces) {
-        replacement.bond.reading = o.bond_stiffness_reading == bond_reading::force ? bonds::stiffness_reading::force
-                                   : o.bond_stiffness_reading == bond_reading::modulus
-                                       ? bonds::stiffness_reading::modulus
-                                       : bonds::stiffness_reading::per_area;
-        replacement.bond.normal_stiffness = o.bond_stiffness;
-        replacement.bond.shear_stiffness = 0.5 * o.bond_stiffness;
-        replacement.bond.tensile_strength = o.rock().bond_tension;
-        replacement.bond.cohesion = o.rock().bond_cohesion;
-        replacement.how = o.birth == "zero" ? replacements::birth::zero_force : replacements::birth::warm_start;
-    }
+    typename P::replacement replacement = [&]() -> typename P::replacement {
+        if constexpr (P::replacement::replaces)
+            return replacement_of(o);
+        else
+            return {};
+    }();
     mixture grains = grains_of(o);
     protocol::packing packing = packing_of(o, grains);
     return {.grain = std::move(grains),
