@@ -121,7 +121,7 @@ echo "--scale=big" >run/arguments.txt
 refuse 2 "--resume: 'run/arguments.txt' cannot be used" "--scale: 'big'" -- --resume run
 
 # a run that fails has the summary and the figures of what there is, and says why they are unfinished
-refuse 3 "overlaps with" "what to change" -- --scale 0.2 --inertial-number 1e-3 --confining 100MPa --seed 2 --snapshots 0 --quiet --out failed
+refuse 3 "overlaps with" "what to change" -- --grain-size circumscribed --stiffness series --scale 0.2 --inertial-number 1e-3 --confining 100MPa --seed 2 --snapshots 0 --quiet --out failed
 for text in '"finished": false' '"what": "pebble' '"stages"'; do
     grep -q "$text" failed/summary.json || { echo "FAILED: '$text' is not in the summary of a failed run"; failures=$((failures + 1)); }
 done
