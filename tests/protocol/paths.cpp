@@ -36,6 +36,7 @@ template <class B> triaxial_setup<scenes::unbreakable<B>> setup_in(double inerti
             .porosity = 0.6,
             .rings = 4,
             .tiles_per_ring = 8,
+            .materials = table_1::of_pieces(),
             .inertial_number = inertial_number};
 }
 /// Prepared quickly, in the middle of a path of so many stages.
@@ -323,6 +324,7 @@ TEST_CASE("grains break in a box, in cluster and fragments, and its six walls ke
                                      .breakage = {criteria::crushing_strength(1e6)},
                                      .replacement = weak,
                                      .porosity = 0.6,
+                                     .materials = table_1::of_pieces(),
                                      .inertial_number = 5e-3};
     const std::vector<stage> stages = after_preparation({protocol::true_triaxial(0.5, 5_percent)});
     triaxial_test<policies> test(s, stages);

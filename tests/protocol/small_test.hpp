@@ -31,6 +31,7 @@ inline triaxial_setup<rigid> setup() {
             .replacement = {},
             .porosity = 0.6,
             .tiles_per_ring = 8,
+            .materials = table_1::of_pieces(),
             .inertial_number = 5e-3};
 }
 /// Without regard for what it loads the grains with, so that it takes few steps.

@@ -51,20 +51,23 @@ template <class Engine> std::vector<piece> pieces_of(const Engine& e, size_of wh
     const auto& s = e.grains;
     std::vector<std::int32_t> place(e.breakage().piece_count(s), -1); // of a piece in the list
     std::vector<piece> out;
+    std::vector<double> first;                    // radius of the first pebble of each: similar pieces, similar bits
     std::vector<std::vector<shape_pebble>> balls; // of each, where extents are asked for
     for (std::size_t p = 0; p < s.pebble_count(); ++p) {
         std::int32_t& at = place[e.breakage().piece_of(s, static_cast<std::int32_t>(p))];
-        if (at < 0) at = static_cast<std::int32_t>(out.size()), out.push_back({});
-        piece& one = out[static_cast<std::size_t>(at)];
         const double r = s.pebbles[p].radius;
-        one.size += 8.0 * r * r * r; // its cube for now
+        if (at < 0) at = static_cast<std::int32_t>(out.size()), out.push_back({}), first.push_back(r);
+        piece& one = out[static_cast<std::size_t>(at)];
+        const double ratio = r / first[static_cast<std::size_t>(at)];
+        one.size += ratio * ratio * ratio; // for now, of its volume over that of its first pebble
         one.mass += s.ball_mass(p);
         if (what == size_of::equivalent) continue;
         balls.resize(out.size());
         balls[static_cast<std::size_t>(at)].push_back({s.pebbles[p].x, r});
     }
     for (std::size_t k = 0; k < out.size(); ++k)
-        out[k].size = what == size_of::sieve ? detail::second_extent(balls[k]) : std::cbrt(out[k].size);
+        out[k].size =
+            what == size_of::sieve ? detail::second_extent(balls[k]) : 2.0 * first[k] * std::cbrt(out[k].size);
     return out;
 }
 
