@@ -101,6 +101,7 @@ void write(const call& c, const crush::test_settings& s, const series& of) {
         curve << fmt::format("{},{},{}\n", 1e-6 * sorted[k],
                              1.0 - static_cast<double>(k + 1) / static_cast<double>(sorted.size() + 1),
                              std::exp(-std::pow(sorted[k] / fit.characteristic, fit.modulus)));
+    table.close(), curve.close(); // before they are drawn
     std::ofstream(folder / "survival.gp")
         << "set datafile separator ','\nset terminal pngcairo size 900,650 font ',13'\nset output 'survival.png'\n"
            "set xlabel 'strength F/d^2 (MPa)'\nset ylabel 'share of grains that survive'\nset yrange [0:1]\nset grid\n"

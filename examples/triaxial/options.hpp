@@ -77,6 +77,7 @@ struct options {
         10.0; ///< Weibull modulus of scatter and size effect of strengths; 0: no scatter, size effect of 10
     std::string replacement = "modified"; ///< name of a policy of replacements::any, or "none"
     std::string birth = "warm";           ///< "warm" or "zero"
+    std::string bonds = "table";          ///< their strength: that of Table 1, "table", or "calibrated"
     bond_reading bond_stiffness_reading = bond_reading::force;
     double bond_stiffness = 9.6e8; ///< normal, in the unit of the reading; shear is half of it
     // how it is run; none of these changes a result
@@ -95,7 +96,8 @@ struct options {
     [[nodiscard]] double diameter() const { return full_diameter * scale; } ///< of the specimen (m)
     /// Of the specimen (m): a cylinder, or a cube.
     [[nodiscard]] double height() const { return (membrane == "box" ? full_diameter : full_height) * scale; }
-    [[nodiscard]] strength_class rock() const; ///< the strength class by its name, or of its stress
+    [[nodiscard]] strength_class rock_of_table() const; ///< with the bonds of Table 1
+    [[nodiscard]] strength_class rock() const;          ///< the strength class by its name, or of its stress
     [[nodiscard]] bool breakable() const { return criterion != "none" && replacement != "none"; }
 };
 

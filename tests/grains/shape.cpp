@@ -241,5 +241,6 @@ TEST_CASE("a grain of 2 cm is as large as a ball of 2 cm, or fits into one, by i
         CHECK(scaled_by(s, 0.5).volume == Approx(ball / 8.0).epsilon(1e-14));
     }
     const shape one = shapes::sphere(0.02), same = shapes::sphere(circumscribed(0.02));
-    CHECK((one.diameter == same.diameter && one.pebbles[0].radius == same.pebbles[0].radius));
+    CHECK((one.diameter == 0.02 && same.diameter == 0.02)); // to the last digit
+    CHECK(one.pebbles[0].radius == same.pebbles[0].radius);
 }

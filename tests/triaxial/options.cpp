@@ -154,6 +154,7 @@ TEST_CASE("every option that decides results changes the fingerprint, and no oth
                                                {"--stiffness", "series"},
                                                {"--membrane-stiffness", "3kN/m"},
                                                {"--contact-force", "single"},
+                                               {"--bonds", "calibrated"},
                                                {"--weibull", "none"},
                                                {"--strength", "30MPa"},
                                                {"--damping", "0.5"},
@@ -195,6 +196,25 @@ TEST_CASE("a strength is a rock of Table 1 or a stress, whose bonds are in the p
     REQUIRE(has(refusal({"--strength", "week"}), "weak, medium, strong"));
     REQUIRE(has(refusal({"--strength", "23"}), "MPa"));
     REQUIRE(has(refusal({"--strength", "0MPa"}), "1kPa to 1TPa"));
+}
+
+TEST_CASE("calibrated bonds are those of the crushing tests, by a power of strength, and only for what was crushed") {
+    for (const bond_calibration& c : bond_calibrations) {
+        const std::string shape(c.shape);
+        const auto bonds = [&](const char* strength) {
+            return read({"--shape", shape, "--bonds", "calibrated", "--strength", strength}).rock();
+        };
+        REQUIRE(bonds("weak").bond_tension == Approx(c.weak).epsilon(1e-12));
+        REQUIRE(bonds("medium").bond_tension == Approx(c.medium).epsilon(1e-12));
+        REQUIRE(bonds("medium").bond_cohesion == Approx(2.0 * c.medium).epsilon(1e-12));
+        REQUIRE(bonds("weak").characteristic == 23.2e6);
+        const double between = bonds("31.6582MPa").bond_tension; // the geometric mean of both strengths
+        REQUIRE(between == Approx(std::sqrt(c.weak * c.medium)).epsilon(1e-4));
+    }
+    REQUIRE(read({}).rock().bond_tension == 0.3e8);
+    REQUIRE(has(refusal({"--bonds", "calibrated", "--stiffness", "series"}), "default readings"));
+    REQUIRE(has(refusal({"--bonds", "calibrated", "--shape", "14B:0.5,4B:0.5"}), "4B or 14B alone"));
+    REQUIRE(has(refusal({"--bonds", "glued"}), "table, calibrated"));
 }
 
 TEST_CASE("porosity is a target between loose and dense, part of what decides the results") {

@@ -219,7 +219,6 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles, const solid& w
         if (frame.equal < 3) p.offset = rotate_back(frame.to_input, p.offset);
         s.circumscribed_radius = std::max(s.circumscribed_radius, norm(p.offset) + p.radius);
     }
-    read_size(s, s.reading);
     const mat3 tensor = inertia_tensor_per_density(pebbles), axes = transpose(matrix(frame.to_input)); // in rows
     vec3& inertia = s.inertia_per_density;
     for (int a = 0; a < 3; ++a) inertia[a] = by_pebbles ? tensor(a, a) : dot(axes.row[a], whole.tensor * axes.row[a]);
@@ -227,6 +226,7 @@ inline void complete(shape& s, std::vector<shape_pebble> pebbles, const solid& w
     if (frame.equal == 3) inertia.x = inertia.y = inertia.z = (inertia.x + inertia.y + inertia.z) / 3.0;
     if (frame.equal == 2) inertia.y = inertia.z = 0.5 * (inertia.y + inertia.z);
     s.pebbles = std::move(pebbles);
+    read_size(s, s.reading);
 }
 
 /// Throws input_error for pebbles that are none, by the name of the shape.
