@@ -36,7 +36,7 @@ struct bond_calibration {
     std::string_view shape;
     double weak, medium;
 };
-constexpr bond_calibration bond_calibrations[] = {{"4B", 6.166e6, 12.99e6}, {"14B", 13.99e6, 2.4e7}};
+constexpr bond_calibration bond_calibrations[] = {{"4B", 6.166e6, 12.99e6}, {"14B", 13.99e6, 24.75e6}};
 
 constexpr int fewest_default_tiles = 8;
 constexpr double smallest_scale = 0.15; // the diameter is then 2.25 grains
