@@ -228,6 +228,8 @@ TEST_CASE("a Hertz-Mindlin contact has the stiffness and energy of its formulas,
     const auto none = law(apart, motion<double>{1e-6, 0, 0, 0, -20.0}, h, 1e-6);
     CHECK((none.fx == 0.0 && none.fz == 0.0 && h.x == 0.0 && h.depth == 0.0));
     CHECK(law.stored(apart, h) == 0.0);
+    const auto back = contacts::reversed(contacts::hertz_history{1.0, -2.0, 3.0, d}); // seen from j
+    CHECK((back.x == -1.0 && back.y == 2.0 && back.z == -3.0 && back.depth == d));
     CHECK_THROWS_AS(hertz_mindlin<>::between({0.0, 0.3}, {70e9, 0.3}), input_error);
     CHECK_THROWS_AS(hertz_mindlin<>::between({70e9, 0.6}, {70e9, 0.3}), input_error);
 }

@@ -44,6 +44,23 @@ template <class T> void turn(const motion<T>& m, T& x, T& y, T& z) {
     x -= a * m.mx, y -= a * m.my, z -= a * m.mz;
 }
 
+/// Turns a tangential vector that a contact remembers with it: into the new contact plane and by the spin (rad, small
+/// against 1), without a change of size, because a turn must not do work.
+template <class T>
+[[gnu::always_inline]] inline void turn_with(const overlap<T>& o, const motion<T>& m, T& x, T& y, T& z) {
+    T ax = x, ay = y, az = z;
+    turn(m, ax, ay, az);
+    const T along = ax * o.nx + ay * o.ny + az * o.nz; // what rounding and a change of distance in the step leave
+    ax -= along * o.nx, ay -= along * o.ny, az -= along * o.nz;
+    // cosine and sine of a small angle, whose squares add up to 1 but for its eighth power
+    const T q = m.spin * m.spin;
+    const T c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
+    const T k = m.spin * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0)));
+    x = c * ax + k * (o.ny * az - o.nz * ay);
+    y = c * ay + k * (o.nz * ax - o.nx * az);
+    z = c * az + k * (o.nx * ay - o.ny * ax);
+}
+
 /// What a law answers.
 template <class T> struct response {
     T fx, fy, fz; ///< force on i (N); the force on j is opposite
@@ -63,8 +80,7 @@ template <class T> struct wrench : response<T> {
 /// - `static constexpr bool uses_masses = false`: it reads no mass, so none is gathered for it;
 /// - `static constexpr bool reads_materials = true`: it reads materials, so they are gathered for it;
 /// - `double rolling_stiffness(o) const` and `twisting_stiffness(o)` (N m): of moments that resist a relative rotation;
-/// - `history reversed() const`, a member of its history: the same contact seen from pebble j; without, a contact
-/// between
+/// - `history reversed() const`, a member of its history: the same contact seen from pebble j; without, a contact of
 ///   two fragments of one grain may begin anew when these freeze;
 /// - `double reach() const`: how far beyond touch two pebbles feel each other (m), >= 0; at walls it acts on touch.
 template <class L>

@@ -32,6 +32,9 @@ enum class tangential : std::uint8_t {
 struct hertz_history {
     double x = 0.0, y = 0.0, z = 0.0; ///< shear force on i (N); of tangential::spring the displacement (m)
     double depth = 0.0;               ///< of the last step (m)
+
+    /// Of the same contact seen from j.
+    constexpr hertz_history reversed() const { return {-x, -y, -z, depth}; }
 };
 
 /// Hertz-Mindlin contact, k_n and k_t from the moduli:
@@ -87,7 +90,8 @@ template <tangential Variant = tangential::incremental> struct hertz_mindlin {
         // normal
         const T elastic_force = 4.0 / 3.0 * modulus * root_radius * d1 * s1;
         const T slope = 2.0 * modulus * root_radius * s1;
-        const T damper = 2.0 * std::numbers::sqrt3 * 0.52704627669472988955 * damping * sqrt(slope * o.reduced_mass());
+        // 2 sqrt(5/6)
+        const T damper = 2.0 * 0.91287092917527685576 * damping * sqrt(slope * o.reduced_mass());
         T fn = elastic_force + damper * m.approach;
         fn = (clipped && fn < 0.0) ? zero : fn;
         const T damped = fn - elastic_force;
@@ -98,16 +102,8 @@ template <tangential Variant = tangential::incremental> struct hertz_mindlin {
         const T mean_root = before > 0.0 ? touching : 2.0 / 3.0 * s1 * share;
         const T k_end = 8.0 * shear_modulus * root_radius * s1, k_mean = 8.0 * shear_modulus * root_radius * mean_root;
         // tangential: what was, turned into the new plane without a change of size
-        T ax = h.x, ay = h.y, az = h.z;
-        turn(m, ax, ay, az);
-        const T along = ax * o.nx + ay * o.ny + az * o.nz;
-        ax -= along * o.nx, ay -= along * o.ny, az -= along * o.nz;
-        const T q = m.spin * m.spin;
-        const T c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
-        const T k = m.spin * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0)));
-        const T sx = c * ax + k * (o.ny * az - o.nz * ay);
-        const T sy = c * ay + k * (o.nz * ax - o.nx * az);
-        const T sz = c * az + k * (o.nx * ay - o.ny * ax);
+        T sx = h.x, sy = h.y, sz = h.z;
+        turn_with(o, m, sx, sy, sz);
         const T last_root = sqrt(T(h.depth) > 0.0 ? T(h.depth) : zero);
         const T k_last = 8.0 * shear_modulus * root_radius * last_root;
         // forces at the start of the step, and trial ones at its end

@@ -34,18 +34,8 @@ template <class T>
 [[gnu::always_inline]] inline response<T> tangential_spring(const overlap<T>& o, const motion<T>& m, shear_history& h,
                                                             T fn, T ks, T limit) {
     using std::sqrt;
-    // the turn must not do work
-    T ax = h.x, ay = h.y, az = h.z;
-    turn(m, ax, ay, az);
-    const T along = ax * o.nx + ay * o.ny + az * o.nz; // what rounding and a change of distance in the step leave
-    ax -= along * o.nx, ay -= along * o.ny, az -= along * o.nz;
-    // cosine and sine of a small angle, whose squares add up to 1 but for its eighth power
-    const T q = m.spin * m.spin;
-    const T c = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
-    const T k = m.spin * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0)));
-    const T sx = c * ax + k * (o.ny * az - o.nz * ay);
-    const T sy = c * ay + k * (o.nz * ax - o.nx * az);
-    const T sz = c * az + k * (o.nx * ay - o.ny * ax);
+    T sx = h.x, sy = h.y, sz = h.z;
+    turn_with(o, m, sx, sy, sz);
     // spring, then slider
     const T px = sx - ks * m.ux, py = sy - ks * m.uy, pz = sz - ks * m.uz;
     const T trial = sqrt(px * px + py * py + pz * pz);

@@ -11,8 +11,8 @@ namespace clast::contacts {
 ///     F_n = k_n depth + gamma m_eff v,   m_eff = m_i m_j / (m_i + m_j),   |F_s| <= mu max(F_n, 0)
 ///
 /// with v the speed of approach and the masses of the two bodies (at a wall m_eff is that of the body). Just before
-/// separation F_n may pull, and nothing rubs then. Restitution of a central collision e = exp(-pi gamma / sqrt(4 k_n / m_eff - gamma^2)).
-/// Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
+/// separation F_n may pull, and nothing rubs then. Restitution of a central collision e = exp(-pi gamma / sqrt(4 k_n /
+/// m_eff - gamma^2)). Source: Cundall and Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
 struct linear_dashpot {
     double kn = 0.0;    ///< normal stiffness of the contact (N/m)
     double ks = 0.0;    ///< shear stiffness of the contact (N/m)
