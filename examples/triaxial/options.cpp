@@ -407,7 +407,7 @@ void read_strength(options& o, const std::string& text) {
 /// Throws where there is no calibration.
 void check_bonds(const options& o) {
     if (o.bonds == "table") return;
-    bool known = o.grain_size == "equivalent" && o.stiffness == "contact" && o.grading.empty();
+    const bool known = o.grain_size == "equivalent" && o.stiffness == "contact" && o.grading.empty();
     bool shape = false;
     for (const bond_calibration& c : bond_calibrations) shape = shape || o.shape == c.shape;
     if (!known || !shape)
